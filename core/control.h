@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+
+#include "core/error.h"
+
+namespace wellspaced {
+
+/// What a long computation tells of itself. NaN: not known (yet).
+struct Progress {
+  double fraction = 0;  ///< of the work that is certain to be the most, in [0, 1]; never falls
+  int sweep = 0;
+  double beta = std::numeric_limits<double>::quiet_NaN();  ///< global ratio after `sweep`
+  double r_c = std::numeric_limits<double>::quiet_NaN();
+  double r_f = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Passed to everything that takes time: cancellation and deadline in, progress out, and how many threads may be used
+/// (which never changes a result).
+///
+/// Thread safety: `cancel`, `cancelled` and `check` from any thread; `report` from one thread at a time.
+class Control {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit Control(unsigned threads = 1) : threads_(threads == 0 ? 1 : threads) {}
+  virtual ~Control() = default;
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+
+  unsigned threads() const { return threads_; }
+  void cancel() { cancelled_ = true; }
+  bool cancelled() const { return cancelled_; }
+  void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
+
+  /// Call at least every few milliseconds of work.
+  /// Errors: cancelled, deadline_exceeded.
+  void check() const {
+    if (cancelled_) throw Error(ErrorCode::cancelled, "the computation was cancelled");
+    if (Clock::now() > deadline_) throw Error(ErrorCode::deadline_exceeded, "the time limit for a job has passed");
+  }
+
+  /// Passes progress on; a fraction lower than the last one is lifted to it.
+  void report(Progress progress) {
+    last_fraction_ = progress.fraction > last_fraction_ ? progress.fraction : last_fraction_;
+    progress.fraction = last_fraction_;
+    on_progress(progress);
+  }
+
+ protected:
+  virtual void on_progress(const Progress&) {}
+
+ private:
+  unsigned threads_;
+  std::atomic<bool> cancelled_ = false;
+  Clock::time_point deadline_ = Clock::time_point::max();
+  double last_fraction_ = 0;
+};
+
+}  // namespace wellspaced
