@@ -1,0 +1,42 @@
+#include "core/math.h"
+
+#include <array>
+#include <cmath>
+
+namespace wellspaced {
+namespace {
+
+// atan(k / 8), k = 0..8.
+constexpr std::array<double, 9> atan_of_eighths = {
+    0.0,
+    0.124354994546761435031,
+    0.244978663126864154172,
+    0.358770670270572220395,
+    0.463647609000806116214,
+    0.558599315343562435971,
+    0.643501108793284386803,
+    0.718829999621624505268,
+    0.785398163397448309616};
+
+/// atan on [0, 1]: the nearest tabulated angle plus a Taylor series of an argument of at most 1/16.
+double atan_unit(double t) {
+  const int k = static_cast<int>(t * 8 + 0.5);
+  const double c = k / 8.0;
+  const double s = (t - c) / (1 + t * c);
+  const double z = s * s;
+  double sum = 0;
+  for (int power = 15; power >= 3; power -= 2) sum = z * (((power / 2) % 2 == 0 ? 1.0 : -1.0) / power + sum);
+  return atan_of_eighths[static_cast<std::size_t>(k)] + (s + s * sum);
+}
+
+}  // namespace
+
+double portable_atan2(double y, double x) {
+  const double ax = std::fabs(x), ay = std::fabs(y);
+  if (ax == 0 && ay == 0) return 0;
+  double angle = ay <= ax ? atan_unit(ay / ax) : pi / 2 - atan_unit(ax / ay);
+  if (x < 0) angle = pi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/vec.h"
+
+namespace wellspaced {
+
+/// A point of a tangent chart with its cost.
+struct Trial {
+  Vec2 at;
+  double cost = 0;
+};
+
+/// `steps` steps of the Nelder-Mead simplex method in the plane from {0, size e1, size e2}; the best trial seen.
+///
+/// Guarantees: the result costs at most cost({0, 0}).
+/// Reference: Nelder and Mead 1965, with the usual coefficients 1, 2, 1/2, 1/2.
+template <class Cost>
+Trial nelder_mead(const Cost& cost, double size, int steps) {
+  const auto tried = [&](Vec2 at) { return Trial{at, cost(at)}; };
+  std::array<Trial, 3> simplex = {tried({0, 0}), tried({size, 0}), tried({0, size})};
+  const auto by_cost = [](const Trial& a, const Trial& b) { return a.cost < b.cost; };
+  std::stable_sort(simplex.begin(), simplex.end(), by_cost);
+  for (int step = 0; step < steps; ++step) {
+    auto& [best, middle, worst] = simplex;
+    const Vec2 center = 0.5 * (best.at + middle.at);
+    const Trial reflected = tried(2 * center - worst.at);
+    if (reflected.cost < best.cost) {
+      const Trial expanded = tried(3 * center - 2 * worst.at);
+      worst = expanded.cost < reflected.cost ? expanded : reflected;
+    } else if (reflected.cost < middle.cost) {
+      worst = reflected;
+    } else {
+      const Trial& nearer = reflected.cost < worst.cost ? reflected : worst;
+      const Trial contracted = tried(0.5 * (center + nearer.at));
+      if (contracted.cost < nearer.cost) {
+        worst = contracted;
+      } else {
+        middle = tried(0.5 * (best.at + middle.at));
+        worst = tried(0.5 * (best.at + worst.at));
+      }
+    }
+    std::stable_sort(simplex.begin(), simplex.end(), by_cost);
+  }
+  return simplex[0];
+}
+
+}  // namespace wellspaced

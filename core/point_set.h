@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/domain/domain.h"
+#include "core/vec.h"
+
+namespace wellspaced {
+
+/// Samples on a domain, in an order that means something: optimizers keep it, generators give row by row.
+///
+/// Shapes: `coordinates` holds domain->dimension() doubles a point, row-major.
+struct PointSet {
+  std::shared_ptr<const Domain> domain;
+  std::vector<double> coordinates;
+
+  std::size_t size() const {
+    return coordinates.empty() ? 0 : coordinates.size() / static_cast<std::size_t>(domain->dimension());
+  }
+  Vec3 operator[](std::size_t i) const {
+    const auto dim = static_cast<std::size_t>(domain->dimension());
+    const double* p = &coordinates[i * dim];
+    return {p[0], p[1], dim == 3 ? p[2] : 0.0};
+  }
+  void set(std::size_t i, Vec3 p) {
+    const auto dim = static_cast<std::size_t>(domain->dimension());
+    double* to = &coordinates[i * dim];
+    to[0] = p.x;
+    to[1] = p.y;
+    if (dim == 3) to[2] = p.z;
+  }
+  void push_back(Vec3 p) {
+    coordinates.push_back(p.x);
+    coordinates.push_back(p.y);
+    if (domain->dimension() == 3) coordinates.push_back(p.z);
+  }
+};
+
+/// Spacing of the triangular lattice with n points on that area: sqrt(2 area / (sqrt(3) n)); n > 0.
+double hexagonal_spacing(double area, std::size_t n);
+
+/// Refuses what no operation on spacing can work with.
+///
+/// Errors: degenerate_input for fewer than 3 points; invalid_parameters at /17 or /17/1 for a NaN, an infinity, or a point
+/// outside the domain; degenerate_input at /17 for a point that repeats an earlier one (r_f = 0).
+/// Cost: O(n log n).
+void require_usable(const PointSet& points);
+
+}  // namespace wellspaced

@@ -1,0 +1,138 @@
+#include "core/registry.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/domain/torus.h"
+#include "core/generate/generate.h"
+#include "core/generate/lattice.h"
+#include "core/generate/poisson_disk.h"
+#include "core/generate/white_noise.h"
+#include "core/optimize/opt_beta_local.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double largest_count = 1e15;  // what is really allowed is the operator's limit
+
+std::uint64_t count_of(const Arguments& a) { return static_cast<std::uint64_t>(argument(a, "count").value()); }
+
+std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
+  if (auto torus = std::dynamic_pointer_cast<const Torus>(domain)) return torus;
+  throw Error(ErrorCode::invalid_parameters, "this method needs a torus", "/domain/type");
+}
+
+Parameter count(const std::string& how_near, bool alone) {
+  return {"count", Parameter::Type::integer, "Wanted number of points; " + how_near, "", 1, largest_count, false, false, "",
+          alone, !alone};
+}
+
+Parameter radius() {
+  return {"radius", Parameter::Type::number, "Conflict radius r: no two points are nearer to each other", "domain length",
+          0, std::numeric_limits<double>::max(), true, false, "", false, true};
+}
+
+Parameter beta(const std::string& fallback) {
+  return {"beta", Parameter::Type::number, "Target for the global ratio beta = r_c / r_f", "", 1 / std::sqrt(3.0), 1, false,
+          true, fallback, false, false,
+          "no point set in the plane has beta below 1/sqrt(3) = 0.57735, that of the triangular lattice"};
+}
+
+const std::string nearest_lattice = "the nearest lattice that fits the torus decides, see n";
+
+double counted(const Domain&, const Arguments& a) { return argument(a, "count").value(); }
+
+template <PointSet (*lattice)(const std::shared_ptr<const Torus>&, std::uint64_t, Control&)>
+PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+  return lattice(torus_of(domain), count_of(a), control);
+}
+
+const std::vector<Generator> generator_rows = {
+    {{"poisson-disk", "Maximal Poisson-disk sampling",
+      "Random points, none nearer than r to another, and no room for one more: beta <= 1.",
+      "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
+      {count("r follows from n r^2 = 0.6966 A, so n is within 1% of it from 10,000 points on", false), radius()}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       const auto r = argument(a, "radius");
+       const double r_f = r ? *r : poisson_disk_radius(domain->area(), count_of(a));
+       const auto torus = torus_of(domain);
+       // A small count may ask for more than half the diagonal, where one sample is all there is room for.
+       const double most = norm(torus->box().size) / 2;
+       return poisson_disk(torus, {r ? r_f : std::min(r_f, most)}, rng, control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       const auto r = argument(a, "radius");
+       return r ? poisson_disk_count(domain.area(), *r) : argument(a, "count").value();
+     },
+     {3e-6, 240}},
+    {{"white-noise", "White noise", "Independent uniform points: what nothing is spaced looks like.", "",
+      {count("exact", true)}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       return white_noise(std::move(domain), count_of(a), rng, control);
+     },
+     counted,
+     {2e-8, 32}},
+    {{"jittered", "Jittered grid", "One uniform point in each cell of a grid of squares.", "",
+      {count("the nearest grid of columns x rows decides, see n", true)}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       return jittered(torus_of(domain), count_of(a), rng, control);
+     },
+     counted,
+     {2e-8, 32}},
+    {{"triangular", "Triangular lattice", "The best possible spacing, beta = 1/sqrt(3), and no randomness.", "",
+      {count(nearest_lattice, true)}},
+     false,
+     run_lattice<triangular_lattice>,
+     counted,
+     {2e-8, 32}},
+    {{"square", "Square lattice", "beta = 1/sqrt(2).", "", {count(nearest_lattice, true)}},
+     false,
+     run_lattice<square_lattice>,
+     counted,
+     {2e-8, 32}},
+    {{"hexagonal", "Hexagonal lattice (honeycomb)", "The corners of regular hexagons: beta = 1.", "",
+      {count(nearest_lattice, true)}},
+     false,
+     run_lattice<hexagonal_lattice>,
+     counted,
+     {2e-8, 32}},
+};
+
+OptBetaLocalOptions opt_beta_local_options(const Arguments& a) {
+  OptBetaLocalOptions options;
+  options.beta = argument(a, "beta").value_or(options.beta);
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  options.damping = argument(a, "damping");
+  return options;
+}
+
+const std::vector<Optimizer> optimizer_rows = {
+    {{"opt-beta-local", "Opt-beta^i",
+      "The paper's method: each point in turn moves to where its own ratio beta_i is least, until the global beta is at most "
+      "the target.",
+      "Ebeida et al., Improving Spatial Coverage while Preserving the Blue Noise of Point Sets, 2013, section 4",
+      {beta("0.85"),
+       {"max_sweeps", Parameter::Type::integer, "Sweeps over all points after which the best state is returned", "", 1, 10000,
+        false, false, "100"},
+       {"damping", Parameter::Type::number, "Part of each found move that is made", "", 0, 1, true, false,
+        "0.7 for beta above 0.9, else 1"}}},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return opt_beta_local(points, opt_beta_local_options(a), control);
+     },
+     [](const Arguments& a) { return Cost{12e-6 * opt_beta_local_options(a).max_sweeps, 300}; }},
+};
+
+}  // namespace
+
+std::optional<double> argument(const Arguments& arguments, std::string_view name) {
+  const auto found = arguments.find(name);
+  return found == arguments.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::span<const Generator> generators() { return generator_rows; }
+std::span<const Optimizer> optimizers() { return optimizer_rows; }
+
+}  // namespace wellspaced

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/control.h"
+#include "core/optimize/optimize.h"
+#include "core/point_set.h"
+#include "core/rng.h"
+
+namespace wellspaced {
+
+/// A parameter of a method, as users see it: routes validate by it, /v1/operations and OpenAPI show it.
+struct Parameter {
+  enum class Type { integer, number };
+
+  std::string name;
+  Type type = Type::number;
+  std::string description;
+  std::string unit;  ///< empty: a pure number
+  double minimum = 0, maximum = 0;
+  bool exclusive_minimum = false, exclusive_maximum = false;
+  std::string fallback;           ///< what holds when it is not given, as JSON text or as words; empty: nothing
+  bool required = false;
+  bool density = false;           ///< exactly one of a method's density parameters must be given
+  std::string infeasible_below = "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
+};
+
+/// The values given for a method's parameters; integers are exact up to 2^53.
+using Arguments = std::map<std::string, double, std::less<>>;
+
+/// The value of an argument, or nothing.
+std::optional<double> argument(const Arguments& arguments, std::string_view name);
+
+/// What a method will cost at most, about: for limits that are checked before the work starts.
+struct Cost {
+  double seconds = 0;  ///< one thread, this decade's machine
+  double bytes = 0;
+};
+
+/// What every method has.
+struct Method {
+  std::string name, title, description, reference;
+  std::vector<Parameter> parameters;
+};
+
+struct Generator : Method {
+  bool random = true;  ///< takes a seed
+  PointSet (*run)(std::shared_ptr<const Domain>, const Arguments&, Rng&, Control&) = nullptr;
+  double (*expected_count)(const Domain&, const Arguments&) = nullptr;
+  Cost cost_a_point;
+};
+
+struct Optimizer : Method {
+  OptimizeResult (*run)(const PointSet&, const Arguments&, Control&) = nullptr;
+  Cost (*cost_a_point)(const Arguments&) = nullptr;
+};
+
+/// All methods, in the order in which users see them. One row each in registry.cpp.
+std::span<const Generator> generators();
+std::span<const Optimizer> optimizers();
+
+}  // namespace wellspaced

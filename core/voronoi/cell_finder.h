@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/domain/domain.h"
+#include "core/point_set.h"
+#include "core/voronoi/cell.h"
+#include "core/voronoi/neighbors.h"
+
+namespace wellspaced {
+
+/// Answers the one local question of every optimizer: if sample i stood at step(x_i, u), what would its Voronoi cell be?
+///
+/// Guarantees: the cell is that of the candidate's own Delaunay neighbors, found again for each candidate: samples are
+/// gathered until everything within twice the cell's outradius is in hand.
+/// Thread safety: one finder a thread; the grid is only read.
+class CellFinder {
+ public:
+  /// `reach`: how far to look at first; about 2.5 times the spacing is cheapest. Requires: points and grid outlive it.
+  CellFinder(const PointSet& points, const NeighborGrid& grid, double reach);
+
+  /// Turns to sample i at its present position.
+  void load(std::uint32_t i);
+
+  struct Radii {
+    double r_f = 0;  ///< distance to the nearest other sample
+    double r_c = 0;  ///< distance to the farthest point of the cell
+  };
+  Radii radii_at(Vec2 u);
+
+  /// The cell itself; labels are indices into neighbors(). Valid until the next call.
+  const Cell& cell_at(Vec2 u);
+  /// Samples around the loaded one, nearest first.
+  std::span<const Neighbor> neighbors() const { return neighbors_; }
+
+ private:
+  void gather(double reach);
+  void cut(Vec2 u);
+
+  const PointSet* points_;
+  const NeighborGrid* grid_;
+  double first_reach_, reach_ = 0, farthest_reach_;
+  std::uint32_t self_ = 0;
+  Vec3 base_;
+  std::vector<Neighbor> neighbors_;
+  std::vector<HalfPlane> half_planes_;
+  Cell cell_;
+};
+
+}  // namespace wellspaced

@@ -1,0 +1,45 @@
+#include "core/voronoi/stars.h"
+
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.h"
+#include "core/voronoi/cell_finder.h"
+#include "core/voronoi/neighbors.h"
+
+namespace wellspaced {
+
+bool is_even(const PointSet& points) {
+  constexpr double points_a_cell = 24;
+  if (points.size() < 500) return true;  // looking at all of them is cheap
+  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
+  const NeighborGrid grid(points, spacing * std::sqrt(points_a_cell));
+  return grid.empty_cells() == 0 && static_cast<double>(grid.fullest_cell()) <= 8 * points_a_cell;
+}
+
+void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit) {
+  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
+  const NeighborGrid grid(points, spacing);
+  parallel_blocks(points.size(), 1024, control, [&](std::size_t begin, std::size_t end) {
+    CellFinder finder(points, grid, 2.3 * spacing);
+    std::vector<Spoke> spokes;
+    for (std::size_t i = begin; i < end; ++i) {
+      finder.load(static_cast<std::uint32_t>(i));
+      spokes.clear();
+      for (const Cell::Corner& corner : finder.cell_at({}).corners()) {
+        const Neighbor& neighbor = finder.neighbors()[static_cast<std::size_t>(corner.label)];
+        spokes.push_back({{neighbor.offset.x, neighbor.offset.y}, neighbor.id});
+      }
+      visit(i, spokes);
+    }
+  });
+}
+
+void visit_stars(const PointSet& points, const Control& control, const StarVisitor& visit) {
+  if (is_even(points))
+    visit_stars_by_kernel(points, control, visit);
+  else
+    visit_stars_by_cgal(points, control, visit);
+}
+
+}  // namespace wellspaced
