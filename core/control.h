@@ -17,29 +17,33 @@ struct Progress {
   double r_f = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Passed to everything that takes time: cancellation and deadline in, progress out, and how many threads may be used
-/// (which never changes a result).
+/// Passed to everything that takes time: cancellation and deadline in, progress out, and how many threads may
+/// be used (which never changes a result).
 ///
 /// Thread safety: `cancel`, `cancelled` and `check` from any thread; `report` from one thread at a time.
 class Control {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit Control(unsigned threads = 1) : threads_(threads == 0 ? 1 : threads) {}
+  /// A control with a parent is over when its parent is.
+  explicit Control(unsigned threads = 1, const Control* parent = nullptr)
+      : threads_(threads == 0 ? 1 : threads), parent_(parent) {}
   virtual ~Control() = default;
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;
 
   unsigned threads() const { return threads_; }
   void cancel() { cancelled_ = true; }
-  bool cancelled() const { return cancelled_; }
+  bool cancelled() const { return cancelled_ || (parent_ != nullptr && parent_->cancelled()); }
   void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
 
   /// Call at least every few milliseconds of work.
   /// Errors: cancelled, deadline_exceeded.
   void check() const {
     if (cancelled_) throw Error(ErrorCode::cancelled, "the computation was cancelled");
-    if (Clock::now() > deadline_) throw Error(ErrorCode::deadline_exceeded, "the time limit for a job has passed");
+    if (parent_ != nullptr) parent_->check();
+    if (Clock::now() > deadline_)
+      throw Error(ErrorCode::deadline_exceeded, "the time limit for a job has passed");
   }
 
   /// Passes progress on; a fraction lower than the last one is lifted to it.
@@ -54,6 +58,7 @@ class Control {
 
  private:
   unsigned threads_;
+  const Control* parent_;
   std::atomic<bool> cancelled_ = false;
   Clock::time_point deadline_ = Clock::time_point::max();
   double last_fraction_ = 0;

@@ -36,8 +36,8 @@ enum class ErrorCode {
 /// The one exception of this project.
 ///
 /// Guarantee: a function that throws it has changed nothing.
-/// `where` is the JSON pointer (RFC 6901) of the offending field, relative to what the thrower was given; callers that
-/// know the rest put it in front with `within`. Empty: no single field is to blame.
+/// `where` is the JSON pointer (RFC 6901) of the offending field, relative to what the thrower was given;
+/// callers that know the rest put it in front with `within`. Empty: no single field is to blame.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message, std::string where = "")

@@ -4,9 +4,9 @@ namespace wellspaced {
 
 /// Angle of the vector (x, y) in radians, in [-pi, pi]; 0 for (0, 0).
 ///
-/// Built from +, -, *, / only, so that it gives the same bits on every CPU, which libm's does not promise (it chooses code
-/// by whether the CPU has fused multiply-add). Accuracy: 2 ulp.
-/// Every transcendental function in a result path goes through this header.
+/// Built from +, -, *, / only, so that it gives the same bits on every CPU, which libm's does not promise (it
+/// chooses code by whether the CPU has fused multiply-add). Accuracy: 4 ulp. Every transcendental function in
+/// a result path goes through this header.
 double portable_atan2(double y, double x);
 
 inline constexpr double pi = 3.14159265358979323846;

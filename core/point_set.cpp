@@ -6,6 +6,8 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/error.h"
 
@@ -28,22 +30,27 @@ void require_in_domain(const PointSet& points) {
   }
 }
 
+/// Points that differ by less than this are one: the square of their distance would underflow. Only near the
+/// origin are there such numbers.
+constexpr double negligible = 1e-100;
+
+Vec3 without_negligible(Vec3 p) {
+  const auto flush = [](double c) { return std::fabs(c) < negligible ? 0.0 : c; };
+  return {flush(p.x), flush(p.y), flush(p.z)};
+}
+
 /// The first point (in input order) that repeats an earlier one, and that earlier one.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> first_repetition(const PointSet& points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto key_less = [&](Vec3 a, Vec3 b) {
-    if (a.x != b.x) return a.x < b.x;
-    if (a.y != b.y) return a.y < b.y;
-    return a.z < b.z;
-  };
+  const auto place = [&](std::uint32_t i) { return without_negligible(points[i]); };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 p = points[a], q = points[b];
-    return p == q ? a < b : key_less(p, q);
+    const Vec3 p = place(a), q = place(b);
+    return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });
   std::optional<std::pair<std::uint32_t, std::uint32_t>> found;
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (points[order[k]] == points[order[k - 1]] && (!found || order[k] < found->first))
+    if (place(order[k]) == place(order[k - 1]) && (!found || order[k] < found->first))
       found.emplace(order[k], order[k - 1]);
   return found;
 }
@@ -62,7 +69,8 @@ void require_usable(const PointSet& points) {
   if (const auto repeat = first_repetition(points))
     throw Error(ErrorCode::degenerate_input,
                 "the point repeats point " + std::to_string(repeat->second) +
-                    ", so the conflict radius r_f is 0 and beta is not defined; remove one of them",
+                    " (to within 1e-100), so the conflict radius r_f is 0 and beta is not defined; remove "
+                    "one of them",
                 "/" + std::to_string(repeat->first));
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double largest_count = 1e15;  // what is really allowed is the operator's limit
 
-std::uint64_t count_of(const Arguments& a) { return static_cast<std::uint64_t>(argument(a, "count").value()); }
+std::uint64_t count_of(const Arguments& a) {
+  return static_cast<std::uint64_t>(argument(a, "count").value());
+}
 
 std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
   if (auto torus = std::dynamic_pointer_cast<const Torus>(domain)) return torus;
@@ -23,18 +25,45 @@ std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domai
 }
 
 Parameter count(const std::string& how_near, bool alone) {
-  return {"count", Parameter::Type::integer, "Wanted number of points; " + how_near, "", 1, largest_count, false, false, "",
-          alone, !alone};
+  return {"count",
+          Parameter::Type::integer,
+          "Wanted number of points; " + how_near,
+          "",
+          1,
+          largest_count,
+          false,
+          false,
+          "",
+          alone,
+          !alone};
 }
 
 Parameter radius() {
-  return {"radius", Parameter::Type::number, "Conflict radius r: no two points are nearer to each other", "domain length",
-          0, std::numeric_limits<double>::max(), true, false, "", false, true};
+  return {"radius",
+          Parameter::Type::number,
+          "Conflict radius r: no two points are nearer to each other",
+          "domain length",
+          0,
+          std::numeric_limits<double>::max(),
+          true,
+          false,
+          "",
+          false,
+          true};
 }
 
 Parameter beta(const std::string& fallback) {
-  return {"beta", Parameter::Type::number, "Target for the global ratio beta = r_c / r_f", "", 1 / std::sqrt(3.0), 1, false,
-          true, fallback, false, false,
+  return {"beta",
+          Parameter::Type::number,
+          "Target for the global ratio beta = r_c / r_f",
+          "",
+          1 / std::sqrt(3.0),
+          1,
+          false,
+          true,
+          fallback,
+          false,
+          false,
           "no point set in the plane has beta below 1/sqrt(3) = 0.57735, that of the triangular lattice"};
 }
 
@@ -48,10 +77,12 @@ PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, R
 }
 
 const std::vector<Generator> generator_rows = {
-    {{"poisson-disk", "Maximal Poisson-disk sampling",
+    {{"poisson-disk",
+      "Maximal Poisson-disk sampling",
       "Random points, none nearer than r to another, and no room for one more: beta <= 1.",
       "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
-      {count("r follows from n r^2 = 0.6966 A, so n is within 1% of it from 10,000 points on", false), radius()}},
+      {count("r follows from n r^2 = 0.6966 A, so n is within 1% of it from 10,000 points on", false),
+       radius()}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        const auto r = argument(a, "radius");
@@ -65,39 +96,59 @@ const std::vector<Generator> generator_rows = {
        const auto r = argument(a, "radius");
        return r ? poisson_disk_count(domain.area(), *r) : argument(a, "count").value();
      },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
      {3e-6, 240}},
-    {{"white-noise", "White noise", "Independent uniform points: what nothing is spaced looks like.", "",
+    {{"white-noise",
+      "White noise",
+      "Independent uniform points: what nothing is spaced looks like.",
+      "",
       {count("exact", true)}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        return white_noise(std::move(domain), count_of(a), rng, control);
      },
      counted,
+     nullptr,
      {2e-8, 32}},
-    {{"jittered", "Jittered grid", "One uniform point in each cell of a grid of squares.", "",
+    {{"jittered",
+      "Jittered grid",
+      "One uniform point in each cell of a grid of squares.",
+      "",
       {count("the nearest grid of columns x rows decides, see n", true)}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        return jittered(torus_of(domain), count_of(a), rng, control);
      },
      counted,
+     nullptr,
      {2e-8, 32}},
-    {{"triangular", "Triangular lattice", "The best possible spacing, beta = 1/sqrt(3), and no randomness.", "",
+    {{"triangular",
+      "Triangular lattice",
+      "The best possible spacing, beta = 1/sqrt(3), and no randomness.",
+      "",
       {count(nearest_lattice, true)}},
      false,
      run_lattice<triangular_lattice>,
      counted,
+     nullptr,
      {2e-8, 32}},
     {{"square", "Square lattice", "beta = 1/sqrt(2).", "", {count(nearest_lattice, true)}},
      false,
      run_lattice<square_lattice>,
      counted,
+     nullptr,
      {2e-8, 32}},
-    {{"hexagonal", "Hexagonal lattice (honeycomb)", "The corners of regular hexagons: beta = 1.", "",
+    {{"hexagonal",
+      "Hexagonal lattice (honeycomb)",
+      "The corners of regular hexagons: beta = 1.",
+      "",
       {count(nearest_lattice, true)}},
      false,
      run_lattice<hexagonal_lattice>,
      counted,
+     nullptr,
      {2e-8, 32}},
 };
 
@@ -110,19 +161,24 @@ OptBetaLocalOptions opt_beta_local_options(const Arguments& a) {
 }
 
 const std::vector<Optimizer> optimizer_rows = {
-    {{"opt-beta-local", "Opt-beta^i",
-      "The paper's method: each point in turn moves to where its own ratio beta_i is least, until the global beta is at most "
+    {{"opt-beta-local",
+      "Opt-beta^i",
+      "The paper's method: each point in turn moves to where its own ratio beta_i is least, until the global "
+      "beta is at most "
       "the target.",
-      "Ebeida et al., Improving Spatial Coverage while Preserving the Blue Noise of Point Sets, 2013, section 4",
+      "Ebeida et al., Improving Spatial Coverage while Preserving the Blue Noise of Point Sets, 2013, "
+      "section 4",
       {beta("0.85"),
-       {"max_sweeps", Parameter::Type::integer, "Sweeps over all points after which the best state is returned", "", 1, 10000,
-        false, false, "100"},
+       {"max_sweeps", Parameter::Type::integer,
+        "Sweeps over all points after which the best state is returned", "", 1, 10000, false, false, "100"},
        {"damping", Parameter::Type::number, "Part of each found move that is made", "", 0, 1, true, false,
         "0.7 for beta above 0.9, else 1"}}},
      [](const PointSet& points, const Arguments& a, Control& control) {
        return opt_beta_local(points, opt_beta_local_options(a), control);
      },
-     [](const Arguments& a) { return Cost{12e-6 * opt_beta_local_options(a).max_sweeps, 300}; }},
+     [](const Arguments& a) {
+       return Cost{12e-6 * opt_beta_local_options(a).max_sweeps, 300};
+     }},
 };
 
 }  // namespace

@@ -27,10 +27,11 @@ struct Parameter {
   std::string unit;  ///< empty: a pure number
   double minimum = 0, maximum = 0;
   bool exclusive_minimum = false, exclusive_maximum = false;
-  std::string fallback;           ///< what holds when it is not given, as JSON text or as words; empty: nothing
+  std::string fallback;  ///< what holds when it is not given, as JSON text or as words; empty: nothing
   bool required = false;
-  bool density = false;           ///< exactly one of a method's density parameters must be given
-  std::string infeasible_below = "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
+  bool density = false;  ///< exactly one of a method's density parameters must be given
+  std::string infeasible_below =
+      "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
 };
 
 /// The values given for a method's parameters; integers are exact up to 2^53.
@@ -55,6 +56,8 @@ struct Generator : Method {
   bool random = true;  ///< takes a seed
   PointSet (*run)(std::shared_ptr<const Domain>, const Arguments&, Rng&, Control&) = nullptr;
   double (*expected_count)(const Domain&, const Arguments&) = nullptr;
+  /// What can be refused before the work, beyond the parameters' ranges; same errors as `run`.
+  void (*check)(const Domain&, const Arguments&) = nullptr;
   Cost cost_a_point;
 };
 

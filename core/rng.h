@@ -7,8 +7,8 @@ namespace wellspaced {
 
 /// xoshiro256** seeded by splitmix64: own bits to double, so that every platform draws the same numbers.
 ///
-/// Determinism: the sequence depends on (seed, stream) only. Parallel work takes one stream per block or index.
-/// Reference: Blackman and Vigna, "Scrambled linear pseudorandom number generators", 2021.
+/// Determinism: the sequence depends on (seed, stream) only. Parallel work takes one stream per block or
+/// index. Reference: Blackman and Vigna, "Scrambled linear pseudorandom number generators", 2021.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed, std::uint64_t stream = 0) {

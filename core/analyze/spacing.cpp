@@ -26,36 +26,30 @@ struct StarMeasure {
   double beta_i() const { return outradius / nearest; }
 };
 
-/// The square of a tiny offset would underflow, and hypot may round differently on another CPU.
-double safe_norm(Vec2 a) { return norm2(a) > 1e-280 ? norm(a) : 0x1p-600 * norm(0x1p600 * a); }
-
 StarMeasure measure_star(std::size_t i, std::span<const Spoke> spokes) {
   StarMeasure m;
   m.valence = static_cast<int>(spokes.size());
   Vec2 previous = circumcenter(spokes.back().offset, spokes.front().offset);
   for (std::size_t k = 0; k < spokes.size(); ++k) {
     const Vec2 a = spokes[k].offset, b = spokes[k + 1 == spokes.size() ? 0 : k + 1].offset;
-    const double length = safe_norm(a);
+    const double length = norm(a);
     if (spokes[k].id != i) m.nearest = std::min(m.nearest, length);
     m.edge_max = std::max(m.edge_max, length);
     const Vec2 center = circumcenter(a, b);
     m.outradius = std::max(m.outradius, norm(center));
     m.cell_area += cross(previous, center) / 2;
     previous = center;
-    const double cotangent = dot(a, b) / cross(a, b);
-    m.cotangent_max = std::max(m.cotangent_max, cotangent);
-    m.cotangent_min = std::min(m.cotangent_min, cotangent);
+    // All three angles, though a neighbor sees its own: among cocircular points it may see another triangle.
+    const double twice_area = cross(a, b), at_center = dot(a, b), at_a = dot(a, a - b), at_b = dot(b, b - a);
+    m.cotangent_max =
+        std::max({m.cotangent_max, at_center / twice_area, at_a / twice_area, at_b / twice_area});
+    m.cotangent_min =
+        std::min({m.cotangent_min, at_center / twice_area, at_a / twice_area, at_b / twice_area});
   }
   return m;
 }
 
 double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 / pi); }
-
-void require_finite_ratio(const Spacing& s) {
-  if (s.r_f > 1e-150 && std::isfinite(s.beta)) return;
-  throw Error(ErrorCode::degenerate_input,
-              "two points are nearer to each other than 1e-150, so beta = r_c / r_f overflows; merge them");
-}
 
 Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars) {
   Spacing s;
@@ -63,7 +57,8 @@ Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars)
   const auto n = static_cast<double>(s.n);
   const double area = points.domain->area(), spacing = hexagonal_spacing(area, s.n);
   s.r_f = infinity;
-  double cotangent_max = -infinity, cotangent_min = infinity, nearest_sum = 0, beta_sum = 0, area_square_sum = 0;
+  double cotangent_max = -infinity, cotangent_min = infinity, nearest_sum = 0, beta_sum = 0,
+         area_square_sum = 0;
   for (const StarMeasure& m : stars) {  // in the points' order: the sums must not depend on threads
     s.r_f = std::min(s.r_f, m.nearest);
     s.r_c = std::max(s.r_c, m.outradius);
@@ -77,7 +72,6 @@ Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars)
     ++s.valence[m.valence];
   }
   s.beta = s.r_c / s.r_f;
-  require_finite_ratio(s);
   s.beta_i_mean = beta_sum / n;
   s.rho = s.r_f / spacing;
   s.coverage = s.r_c / spacing;

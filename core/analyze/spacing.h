@@ -15,7 +15,8 @@ struct Spacing {
   double r_f = 0;   ///< conflict radius: smallest distance between two samples
   double r_c = 0;   ///< coverage radius: largest distance from a point of the domain to its nearest sample
   double beta = 0;  ///< r_c / r_f, the global ratio; at least 1/sqrt(3) in the plane
-  double beta_i_max = 0, beta_i_mean = 0;  ///< of beta_i = r_c^i / r_f^i, the local ratios; beta_i_max <= beta
+  double beta_i_max = 0,
+         beta_i_mean = 0;      ///< of beta_i = r_c^i / r_f^i, the local ratios; beta_i_max <= beta
   double rho = 0;              ///< r_f / d_hex, d_hex = sqrt(2 A / (sqrt(3) n)); 1 for the triangular lattice
   double coverage = 0;         ///< r_c / d_hex
   double packing_density = 0;  ///< n pi r_f^2 / (4 A)
@@ -35,12 +36,12 @@ struct LocalSpacing {
 /// Measures a point set on a torus.
 ///
 /// Guarantees
-/// 1. r_f, r_c, beta and each beta_i are those of the exact Delaunay triangulation of the points up to 1e-12 relative.
+/// 1. r_f, r_c, beta and each beta_i are those of the exact Delaunay triangulation of the points up to 1e-12
+/// relative.
 /// 2. For beta: angles lie in [asin(1/(2 beta)), 180 - 2 asin(1/(2 beta))], edges in [1, 2 beta].
-/// Errors: those of require_usable; degenerate_input if two samples are so near (below 1e-150) that beta overflows;
-/// cancelled, deadline_exceeded. Cost: O(n log n), about 1 us a point and thread for even sets.
-/// Determinism: the same bits on any number of threads.
-/// Reference: Ebeida et al. 2013, sections 2 and 6; Lagae and Dutre 2008 (rho).
+/// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
+/// O(n log n), about 1 us a point and thread for even sets. Determinism: the same bits on any number of
+/// threads. Reference: Ebeida et al. 2013, sections 2 and 6; Lagae and Dutre 2008 (rho).
 Spacing measure_spacing(const PointSet& points, const Control& control);
 LocalSpacing measure_local_spacing(const PointSet& points, const Control& control);
 
@@ -50,8 +51,8 @@ struct GlobalRatio {
   double beta() const { return r_c / r_f; }  ///< infinite where two samples coincide
 };
 
-/// r_f and r_c alone, for a point set already known to be usable and spread out, between the sweeps of an optimizer.
-/// The same values as measure_spacing's. Cost: O(n) for even sets, without its checks.
+/// r_f and r_c alone, for a point set already known to be usable and spread out, between the sweeps of an
+/// optimizer. The same values as measure_spacing's. Cost: O(n) for even sets, without its checks.
 GlobalRatio measure_ratio(const PointSet& points, const Control& control);
 
 }  // namespace wellspaced

@@ -30,11 +30,11 @@ struct Box {
   std::array<bool, 3> periodic{};
 };
 
-/// Where points live. Everything that generators, optimizers and analyses need to know of a shape is asked here, so that
-/// each of them is written once.
+/// Where points live. Everything that generators, optimizers and analyses need to know of a shape is asked
+/// here, so that each of them is written once.
 ///
-/// The tangent chart at p is a plane with origin p in which bisectors to near samples are straight lines and distance from
-/// p grows with |u|; `chart_to_distance` is that monotone map. Torus: the identity, exact.
+/// The tangent chart at p is a plane with origin p in which bisectors to near samples are straight lines and
+/// distance from p grows with |u|; `chart_to_distance` is that monotone map. Torus: the identity, exact.
 ///
 /// Thread safety: immutable after construction.
 class Domain {

@@ -17,8 +17,9 @@ void require_side(double side, const char* where) {
 }  // namespace
 
 double wrap(double x, double period) {
-  x -= std::floor(x / period) * period;
-  if (x < 0) x += period;  // floor(x / period) may be one too large after rounding
+  if (x >= 0 && x < period) return x;
+  x = std::fmod(x, period);  // exact
+  if (x < 0) x += period;
   return x >= period ? 0.0 : x;
 }
 

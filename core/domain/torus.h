@@ -6,8 +6,8 @@ namespace wellspaced {
 
 /// The flat torus [0, width) x [0, height): a rectangle whose opposite sides are the same.
 ///
-/// Errors of the constructor: invalid_parameters at /width or /height for sides that are not finite, not within
-/// [min_side, max_side], or with a ratio above max_aspect.
+/// Errors of the constructor: invalid_parameters at /width or /height for sides that are not finite, not
+/// within [min_side, max_side], or with a ratio above max_aspect.
 class Torus final : public Domain {
  public:
   static constexpr double min_side = 1e-6, max_side = 1e6, max_aspect = 1000;

@@ -10,8 +10,9 @@ namespace wellspaced {
 
 /// How many points: exactly one of the two.
 struct Density {
-  std::optional<std::uint64_t> count;  ///< wanted number of points, at least 1; methods say how near they come to it
-  std::optional<double> radius;        ///< conflict radius in domain lengths
+  std::optional<std::uint64_t>
+      count;  ///< wanted number of points, at least 1; methods say how near they come to it
+  std::optional<double> radius;  ///< conflict radius in domain lengths
 };
 
 /// n r^2 = 0.6966 A for maximal Poisson-disk samplings (.690 to .703 for n >= 5000).

@@ -8,9 +8,10 @@
 namespace wellspaced {
 namespace {
 
-/// Puts `motif` (in units of a cell) into each cell of the grid, one row of the motif's points after the other.
-PointSet tile(const std::shared_ptr<const Torus>& torus, GridShape grid, std::span<const std::vector<Vec2>> motif_rows,
-              Control& control) {
+/// Puts `motif` (in units of a cell) into each cell of the grid, one row of the motif's points after the
+/// other.
+PointSet tile(const std::shared_ptr<const Torus>& torus, GridShape grid,
+              std::span<const std::vector<Vec2>> motif_rows, Control& control) {
   PointSet points{torus, {}};
   const double w = torus->width() / static_cast<double>(grid.columns);
   const double h = torus->height() / static_cast<double>(grid.rows);
@@ -48,7 +49,8 @@ GridShape fit_grid(const Torus& torus, double cells, double cell_aspect) {
   return best;
 }
 
-PointSet triangular_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Control& control) {
+PointSet triangular_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
+                            Control& control) {
   // A cell holds two rows: spacing a wide, sqrt(3) a high.
   const GridShape grid = fit_grid(*torus, static_cast<double>(count) / 2, std::sqrt(3.0));
   const std::vector<Vec2> rows[] = {{{0, 0}}, {{0.5, 0.5}}};
@@ -67,7 +69,8 @@ PointSet hexagonal_lattice(const std::shared_ptr<const Torus>& torus, std::uint6
   return tile(torus, grid, rows, control);
 }
 
-PointSet jittered(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng, Control& control) {
+PointSet jittered(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng,
+                  Control& control) {
   const GridShape grid = fit_grid(*torus, static_cast<double>(count), 1);
   PointSet points{torus, {}};
   const double w = torus->width() / static_cast<double>(grid.columns);

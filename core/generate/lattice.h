@@ -17,15 +17,16 @@ struct GridShape {
 
 /// The columns x rows nearest to `cells` cells of the given height / width ratio.
 ///
-/// Guarantees: among the row counts within a tenth of the ideal one, the shape that is least off in number and in stretch.
+/// Guarantees: among the row counts within a tenth of the ideal one, the shape that is least off in number
+/// and in stretch.
 GridShape fit_grid(const Torus& torus, double cells, double cell_aspect);
 
 /// Triangular (hexagonally packed) lattice: beta = 1/sqrt(3). Rows alternate by half a spacing.
 ///
-/// Guarantees (all three): row by row from (0, 0); about `count` points, namely as many as the nearest periodic lattice
-/// has. One that doesn't fit the torus is stretched a little, and its beta is then a little above the closed form; the triangular
-/// one is exact where height / width = rows * sqrt(3) / (2 columns) is near enough, as on a torus of aspect sqrt(3).
-/// Errors: cancelled, deadline_exceeded.
+/// Guarantees (all three): row by row from (0, 0); about `count` points, namely as many as the nearest
+/// periodic lattice has. One that doesn't fit the torus is stretched a little, and its beta is then a little
+/// above the closed form; the triangular one is exact where height / width = rows * sqrt(3) / (2 columns) is
+/// near enough, as on a torus of aspect sqrt(3). Errors: cancelled, deadline_exceeded.
 PointSet triangular_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Control& control);
 
 /// Square lattice: beta = 1/sqrt(2).

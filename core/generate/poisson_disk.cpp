@@ -33,12 +33,14 @@ struct GridAxis {
   }
 };
 
-/// Base cells with at most one sample each. Ghost cells hold images shifted by whole periods, so a query never wraps;
-/// an empty cell holds NaN, which fails every comparison, so a query never branches on it.
+/// Base cells with at most one sample each. Ghost cells hold images shifted by whole periods, so a query
+/// never wraps; an empty cell holds NaN, which fails every comparison, so a query never branches on it.
 class SampleGrid {
  public:
   SampleGrid(const Torus& torus, double radius)
-      : x(torus.width(), radius), y(torus.height(), radius), table_(static_cast<std::size_t>(x.stride * y.stride), {empty, empty}) {
+      : x(torus.width(), radius),
+        y(torus.height(), radius),
+        table_(static_cast<std::size_t>(x.stride * y.stride), {empty, empty}) {
     // Images are rounded copies: the conflict radius is widened by what that can hide.
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(x.period, y.period);
     radius2_ = (radius + rounding) * (radius + rounding);
@@ -106,8 +108,8 @@ class Sampler {
   Sampler(const Torus& torus, double radius, Rng& rng, Control& control)
       : grid_(torus, radius), rng_(rng), control_(control) {}
 
-  /// Throws darts into the active cells and halves them, until no active cell is left (or they reach the resolution of
-  /// their 32-bit indices: `fill_gaps` deals with what is left then).
+  /// Throws darts into the active cells and halves them, until no active cell is left (or they reach the
+  /// resolution of their 32-bit indices: `fill_gaps` deals with what is left then).
   void run() {
     for (std::int64_t j = 0; j < grid_.y.cells; ++j)
       for (std::int64_t i = 0; i < grid_.x.cells; ++i)
@@ -197,9 +199,8 @@ std::vector<Vec3> find_gaps(const PointSet& points, double radius, const Control
       finder.load(static_cast<std::uint32_t>(i));
       const Cell& cell = finder.cell_at({});
       if (cell.outradius2() <= radius * radius) continue;
-      const auto farthest = std::max_element(cell.corners().begin(), cell.corners().end(), [](auto& a, auto& b) {
-        return norm2(a.at) < norm2(b.at);
-      });
+      const auto farthest = std::max_element(cell.corners().begin(), cell.corners().end(),
+                                             [](auto& a, auto& b) { return norm2(a.at) < norm2(b.at); });
       gaps[begin / block].push_back(points.domain->step(points[i], farthest->at));
     }
   });
@@ -210,23 +211,28 @@ std::vector<Vec3> find_gaps(const PointSet& points, double radius, const Control
 
 }  // namespace
 
-PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,
-                      Control& control) {
-  const double farthest = norm(Vec2{torus->width(), torus->height()}) / 2;
-  if (!(options.radius > 0))
+void require_radius(const Domain& domain, double radius) {
+  const double farthest = norm(domain.box().size) / 2;
+  if (!(radius > 0))
     throw Error(ErrorCode::invalid_parameters, "the conflict radius must be greater than 0", "/radius");
-  if (options.radius > farthest)
+  if (radius > farthest)
     throw Error(ErrorCode::infeasible,
                 "no two points of this torus are farther apart than " + std::to_string(farthest) +
                     ", so a larger conflict radius leaves room for one sample only; choose a smaller one",
                 "/radius");
+}
+
+PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,
+                      Control& control) {
+  require_radius(*torus, options.radius);
   Sampler sampler(*torus, options.radius, rng, control);
   sampler.run();
   PointSet points = sampler.samples(torus);
   // Proof of maximality. A corner that lies within rounding of the radius can't be filled and need not be.
   for (;;) {
     bool filled = false;
-    for (const Vec3 gap : find_gaps(points, options.radius * (1 + 1e-10), control)) filled |= sampler.insert(gap);
+    for (const Vec3 gap : find_gaps(points, options.radius * (1 + 1e-10), control))
+      filled |= sampler.insert(gap);
     if (!filled) break;
     points = sampler.samples(torus);
   }

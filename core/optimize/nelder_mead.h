@@ -14,7 +14,8 @@ struct Trial {
   double cost = 0;
 };
 
-/// `steps` steps of the Nelder-Mead simplex method in the plane from {0, size e1, size e2}; the best trial seen.
+/// `steps` steps of the Nelder-Mead simplex method in the plane from {0, size e1, size e2}; the best trial
+/// seen.
 ///
 /// Guarantees: the result costs at most cost({0, 0}).
 /// Reference: Nelder and Mead 1965, with the usual coefficients 1, 2, 1/2, 1/2.

@@ -19,13 +19,16 @@ constexpr double mps_rho = 0.777;  // r_f / d_hex of maximal Poisson-disk sampli
 
 void require_options(const OptBetaLocalOptions& o) {
   if (!(o.beta >= 1 / std::sqrt(3.0)))
-    throw Error(ErrorCode::infeasible,
-                "no point set in the plane has beta below 1/sqrt(3) = 0.57735 (the triangular lattice); ask for more",
-                "/beta");
+    throw Error(
+        ErrorCode::infeasible,
+        "no point set in the plane has beta below 1/sqrt(3) = 0.57735 (the triangular lattice); ask for more",
+        "/beta");
   if (!(o.beta < 1))
     throw Error(ErrorCode::invalid_parameters,
-                "the target must be below 1: every maximal Poisson-disk sampling already has beta <= 1", "/beta");
-  if (o.max_sweeps < 1) throw Error(ErrorCode::invalid_parameters, "at least one sweep is needed", "/max_sweeps");
+                "the target must be below 1: every maximal Poisson-disk sampling already has beta <= 1",
+                "/beta");
+  if (o.max_sweeps < 1)
+    throw Error(ErrorCode::invalid_parameters, "at least one sweep is needed", "/max_sweeps");
   if (o.damping && !(*o.damping > 0 && *o.damping <= 1))
     throw Error(ErrorCode::invalid_parameters, "damping must be in (0, 1]", "/damping");
 }
@@ -47,9 +50,10 @@ std::vector<std::uint32_t> scan_line_order(const PointSet& points, double spacin
 void require_local(const NeighborGrid& grid) {
   constexpr std::size_t most = 512;
   if (grid.fullest_cell() <= most) return;
-  throw Error(ErrorCode::degenerate_input,
-              "the points are so clustered that " + std::to_string(grid.fullest_cell()) +
-                  " of them lie within one mean spacing; optimize a point set that is spread over its domain");
+  throw Error(
+      ErrorCode::degenerate_input,
+      "the points are so clustered that " + std::to_string(grid.fullest_cell()) +
+          " of them lie within one mean spacing; optimize a point set that is spread over its domain");
 }
 
 SweepRecord record(int sweep, const PointSet& points, const Control& control) {
@@ -115,7 +119,8 @@ OptimizeResult opt_beta_local(const PointSet& input, const OptBetaLocalOptions& 
       best_beta = now.beta;
       result.points.coordinates = points.coordinates;
     }
-    control.report({static_cast<double>(result.sweeps) / options.max_sweeps, now.sweep, now.beta, now.r_c, now.r_f});
+    control.report(
+        {static_cast<double>(result.sweeps) / options.max_sweeps, now.sweep, now.beta, now.r_c, now.r_f});
   }
   result.converged = best_beta <= options.beta;
   return result;

@@ -16,9 +16,9 @@ struct SweepRecord {
 
 /// What every optimizer returns.
 ///
-/// Guarantees: `points` has as many points as the input, output i is input i moved; it is the best state reached by global
-/// beta, never worse than the input. `converged` says whether that beta is at most the target; methods without a target
-/// leave it empty.
+/// Guarantees: `points` has as many points as the input, output i is input i moved; it is the best state
+/// reached by global beta, never worse than the input. `converged` says whether that beta is at most the
+/// target; methods without a target leave it empty.
 struct OptimizeResult {
   PointSet points;
   std::optional<bool> converged;

@@ -8,7 +8,8 @@ namespace wellspaced {
 
 CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double reach)
     : points_(&points), grid_(&grid), first_reach_(reach) {
-  // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can matter.
+  // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can
+  // matter.
   farthest_reach_ = 2 * norm(points.domain->box().size);
 }
 
@@ -22,7 +23,8 @@ void CellFinder::gather(double reach) {
   reach_ = reach;
   neighbors_.clear();
   grid_->gather(base_, self_, reach, neighbors_);
-  // Near ones first: they cut most, and the rest is then rejected in O(1). Ties by id keep the order one for all.
+  // Near ones first: they cut most, and the rest is then rejected in O(1). Ties by id keep the order one for
+  // all.
   std::sort(neighbors_.begin(), neighbors_.end(), [](const Neighbor& a, const Neighbor& b) {
     const double a2 = norm2(a.offset), b2 = norm2(b.offset);
     return a2 != b2 ? a2 < b2 : a.id < b.id;
@@ -33,7 +35,8 @@ void CellFinder::gather(double reach) {
 void CellFinder::cut(Vec2 u) {
   points_->domain->bisectors(base_, u, neighbors_, half_planes_);
   cell_.reset(reach_);
-  for (std::size_t k = 0; k < half_planes_.size(); ++k) cell_.clip(half_planes_[k], static_cast<std::int32_t>(k));
+  for (std::size_t k = 0; k < half_planes_.size(); ++k)
+    cell_.clip(half_planes_[k], static_cast<std::int32_t>(k));
 }
 
 const Cell& CellFinder::cell_at(Vec2 u) {
@@ -41,7 +44,8 @@ const Cell& CellFinder::cell_at(Vec2 u) {
   for (;;) {
     cut(u);
     const double outradius = std::sqrt(cell_.outradius2());
-    const bool complete = cell_.closed() && moved + 2 * points_->domain->chart_to_distance(outradius) <= reach_;
+    const bool complete =
+        cell_.closed() && moved + 2 * points_->domain->chart_to_distance(outradius) <= reach_;
     if (complete || reach_ >= farthest_reach_ + moved) return cell_;
     gather(std::min(1.5 * reach_ + moved, farthest_reach_ + moved));
   }

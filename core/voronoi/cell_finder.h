@@ -11,14 +11,16 @@
 
 namespace wellspaced {
 
-/// Answers the one local question of every optimizer: if sample i stood at step(x_i, u), what would its Voronoi cell be?
+/// Answers the one local question of every optimizer: if sample i stood at step(x_i, u), what would its
+/// Voronoi cell be?
 ///
-/// Guarantees: the cell is that of the candidate's own Delaunay neighbors, found again for each candidate: samples are
-/// gathered until everything within twice the cell's outradius is in hand.
-/// Thread safety: one finder a thread; the grid is only read.
+/// Guarantees: the cell is that of the candidate's own Delaunay neighbors, found again for each candidate:
+/// samples are gathered until everything within twice the cell's outradius is in hand. Thread safety: one
+/// finder a thread; the grid is only read.
 class CellFinder {
  public:
-  /// `reach`: how far to look at first; about 2.5 times the spacing is cheapest. Requires: points and grid outlive it.
+  /// `reach`: how far to look at first; about 2.5 times the spacing is cheapest. Requires: points and grid
+  /// outlive it.
   CellFinder(const PointSet& points, const NeighborGrid& grid, double reach);
 
   /// Turns to sample i at its present position.

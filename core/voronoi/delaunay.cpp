@@ -1,12 +1,12 @@
 // The only file that knows CGAL's two-dimensional triangulations.
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "core/parallel.h"
 #include "core/voronoi/cell.h"
@@ -65,14 +65,16 @@ class PeriodicDelaunay {
       if (triangulation_.is_infinite(around)) return false;
       const Image& image = around->info();
       const Vec3 at = points_[image.id];
-      spokes.push_back({{(at.x - center.x) + image.turns_x * box_.size.x, (at.y - center.y) + image.turns_y * box_.size.y},
-                        image.id});
+      spokes.push_back(
+          {{(at.x - center.x) + image.turns_x * box_.size.x, (at.y - center.y) + image.turns_y * box_.size.y},
+           image.id});
     } while (++around != first);
     return true;
   }
 
  private:
-  void add_images(int tx, int ty, double border, std::vector<std::pair<Kernel::Point_2, Image>>& images) const {
+  void add_images(int tx, int ty, double border,
+                  std::vector<std::pair<Kernel::Point_2, Image>>& images) const {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Vec3 p = points_[i];
       const double x = p.x + tx * box_.size.x, y = p.y + ty * box_.size.y;
@@ -84,7 +86,8 @@ class PeriodicDelaunay {
   static double outradius(const std::vector<Spoke>& spokes) {
     double r2 = 0;
     for (std::size_t k = 0; k < spokes.size(); ++k)
-      r2 = std::max(r2, norm2(circumcenter(spokes[k].offset, spokes[k + 1 == spokes.size() ? 0 : k + 1].offset)));
+      r2 = std::max(r2,
+                    norm2(circumcenter(spokes[k].offset, spokes[k + 1 == spokes.size() ? 0 : k + 1].offset)));
     return std::sqrt(r2);
   }
 
@@ -106,7 +109,8 @@ void visit_stars_by_cgal(const PointSet& points, const Control& control, const S
     const double images = n * (1 + 2 * border / box.size.x) * (1 + 2 * border / box.size.y);
     if (images > most_images)
       throw Error(ErrorCode::degenerate_input,
-                  "the points leave so large a part of this thin torus empty that more than 10^8 periodic images would be "
+                  "the points leave so large a part of this thin torus empty that more than 10^8 periodic "
+                  "images would be "
                   "needed; spread them out or use a less elongated torus");
     if (delaunay.build(border, control) || border >= enough) break;
   }

@@ -70,8 +70,8 @@ void NeighborGrid::gather(Vec3 base, std::uint32_t self, double reach, std::vect
     const std::int64_t tz = turns(z, axes_[2].cells);
     for (std::int64_t y = from[1]; y <= to[1]; ++y) {
       const std::int64_t ty = turns(y, axes_[1].cells);
-      const auto row = static_cast<std::size_t>(((z - tz * axes_[2].cells) * axes_[1].cells + y - ty * axes_[1].cells) *
-                                                axes_[0].cells);
+      const auto row = static_cast<std::size_t>(
+          ((z - tz * axes_[2].cells) * axes_[1].cells + y - ty * axes_[1].cells) * axes_[0].cells);
       for (std::int64_t x = from[0]; x <= to[0]; ++x) {
         const std::int64_t tx = turns(x, axes_[0].cells);
         const Vec3 shift{static_cast<double>(tx) * axes_[0].size, static_cast<double>(ty) * axes_[1].size,

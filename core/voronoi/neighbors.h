@@ -9,18 +9,21 @@
 
 namespace wellspaced {
 
-/// A uniform grid over a point set that answers "who is within this distance", periodic images included, while points move.
+/// A uniform grid over a point set that answers "who is within this distance", periodic images included,
+/// while points move.
 ///
-/// Guarantees: `gather` finds every image of every sample whose offset is at most `reach` long, whatever the ratio of reach
-/// to period; ghost images are offsets, never rounded copies of coordinates.
-/// Cost: built in O(n); gather in O(cells + points within reach).
-/// Thread safety: const calls from many threads; `move` excludes everything else.
+/// Guarantees: `gather` finds every image of every sample whose offset is at most `reach` long, whatever the
+/// ratio of reach to period; ghost images are offsets, never rounded copies of coordinates. Cost: built in
+/// O(n); gather in O(cells + points within reach). Thread safety: const calls from many threads; `move`
+/// excludes everything else.
 class NeighborGrid {
  public:
-  /// Cells of about `cell` on a side. Requires: points are in their domain; cell > 0; points outlives the grid.
+  /// Cells of about `cell` on a side. Requires: points are in their domain; cell > 0; points outlives the
+  /// grid.
   NeighborGrid(const PointSet& points, double cell);
 
-  /// Appends all images within `reach` of `base`, but not sample `self` itself (its images count: they bound its cell).
+  /// Appends all images within `reach` of `base`, but not sample `self` itself (its images count: they bound
+  /// its cell).
   void gather(Vec3 base, std::uint32_t self, double reach, std::vector<Neighbor>& out) const;
 
   /// Tells the grid that sample i, last known at `from`, is now at `to`.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/registry.h"
+#include "proto/fields.h"
+
+namespace wellspaced {
+
+/// Reads a method's arguments from a request by its parameters' descriptions.
+///
+/// Errors, at the field: invalid_parameters for a wrong type or a value out of range, for a missing required
+/// parameter, and for none or more than one of its density parameters; infeasible for a value that geometry
+/// rules out.
+Arguments read_arguments(const Method& method, Fields& fields);
+
+/// "in [0.57735, 1)", "at least 1", ...: the range in words.
+std::string range_text(const Parameter& parameter);
+
+}  // namespace wellspaced

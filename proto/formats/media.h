@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proto/formats/csv.h"
+#include "proto/formats/npy.h"
+
+namespace wellspaced {
+
+enum class Format { json, npy, csv, svg };
+
+/// "json", "npy", ...: as in ?format= and file extensions.
+std::string_view name_of(Format format);
+std::string_view media_type_of(Format format);
+
+/// The format of a request's body. Errors: unsupported_media_type naming what is taken, and what to send
+/// instead of a form.
+Format input_format(std::string_view content_type);
+
+/// What an answer is written in: `?format=` wins over `Accept`; the first of `offered` where the client
+/// doesn't mind. Errors: not_acceptable listing `offered`.
+Format negotiate(std::string_view format_parameter, std::string_view accept, std::span<const Format> offered);
+
+/// The pictures that there are.
+std::span<const std::string_view> pictures();
+/// Errors: invalid_parameters at `where`, listing them.
+void require_picture(std::string_view name, const std::string& where);
+
+}  // namespace wellspaced

@@ -1,0 +1,317 @@
+#include "proto/request.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/domain/torus.h"
+#include "proto/arguments.h"
+#include "proto/fields.h"
+#include "proto/formats/media.h"
+#include "proto/json_reader.h"
+
+namespace wellspaced {
+namespace {
+
+using nlohmann::json;
+
+/// A request after its bytes are understood: one JSON object, and the points that were not JSON.
+struct Document {
+  json root;
+  std::optional<Table> points;
+  std::string points_pointer;
+};
+
+/// "0.5" in a query means the number: what a JSON body would hold.
+json scalar_from_text(const std::string& text) {
+  const json value = json::parse(text, nullptr, false);
+  return value.is_number() ? value : json(text);
+}
+
+json object_from_query(const std::vector<std::pair<std::string, std::string>>& query) {
+  json root = json::object();
+  for (const auto& [key, value] : query) {
+    const auto dot = key.find('.');
+    json& parent = dot == std::string::npos ? root : root[key.substr(0, dot)];
+    if (dot != std::string::npos && !parent.is_object()) parent = json::object();
+    const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
+    if (parent.contains(name))
+      throw Error(ErrorCode::invalid_parameters, "the parameter is given twice", pointer_token(key));
+    parent[name] = scalar_from_text(value);
+  }
+  return root;
+}
+
+std::uint64_t point_limit(std::string_view operation, const Limits& limits) {
+  if (operation == "optimize") return limits.optimize_points;
+  return operation == "analyze" ? limits.analyze_points : limits.generate_points;
+}
+
+Document read_document(const RawRequest& raw, const Limits& limits) {
+  const Format format = input_format(raw.content_type);
+  const auto rows = static_cast<std::size_t>(point_limit(raw.operation, limits));
+  if (format == Format::json) {
+    if (!raw.query.empty())
+      throw Error(
+          ErrorCode::invalid_parameters,
+          "with a JSON body, parameters go into the body; only format and picture are read from the query",
+          pointer_token(raw.query.front().first));
+    static constexpr std::array<std::string_view, 2> tables = {"/points", "/points/points"};
+    JsonDocument document = read_json(raw.body, tables, rows);
+    return {std::move(document.root), std::move(document.points), std::move(document.points_pointer)};
+  }
+  if (raw.operation == "generate")
+    throw Error(ErrorCode::unsupported_media_type,
+                "generate takes no points; send its parameters as application/json");
+  Document document{object_from_query(raw.query),
+                    format == Format::npy ? read_npy(raw.body, rows) : read_csv(raw.body, rows), ""};
+  if (document.root.contains("points"))
+    throw Error(ErrorCode::invalid_parameters, "the points are the body; leave this parameter out",
+                "/points");
+  document.root["points"] = json::array();
+  return document;
+}
+
+template <class Row>
+const Row& find_row(std::span<const Row> rows, const std::string& name, const std::string& where) {
+  std::string names;
+  for (const Row& row : rows) {
+    if (row.name == name) return row;
+    names += (names.empty() ? "" : ", ") + row.name;
+  }
+  throw Error(ErrorCode::invalid_parameters, "unknown name; there are: " + names, where);
+}
+
+std::shared_ptr<const Domain> domain_field(Fields& fields) {
+  const json* value = fields.find("domain");
+  return value != nullptr ? read_domain(*value, fields.pointer_to("domain")) : std::make_shared<Torus>();
+}
+
+void require_count(double points, std::uint64_t limit, const std::string& where) {
+  if (points <= static_cast<double>(limit)) return;
+  throw Error(ErrorCode::too_large,
+              "about " + json(std::round(points)).dump() + " points are asked for, but the limit here is " +
+                  std::to_string(limit) + "; ask for fewer",
+              where);
+}
+
+GenerateRequest generate_request(Fields& fields, std::uint64_t limit) {
+  GenerateRequest request;
+  request.domain = domain_field(fields);
+  request.method = &find_row(generators(), fields.text("method").value_or(generators().front().name),
+                             fields.pointer_to("method"));
+  request.arguments = read_arguments(*request.method, fields);
+  request.seed = fields.whole("seed").value_or(0);
+  const std::string density = fields.pointer_to(request.arguments.count("count") != 0 ? "count" : "radius");
+  require_count(request.method->expected_count(*request.domain, request.arguments), limit, density);
+  try {
+    if (request.method->check != nullptr) request.method->check(*request.domain, request.arguments);
+  } catch (const Error& error) {
+    throw error.within(fields.pointer());
+  }
+  return request;
+}
+
+PointSet inline_points(std::shared_ptr<const Domain> domain, Document& document) {
+  Table& table = *document.points;
+  const auto dimension = static_cast<std::size_t>(domain->dimension());
+  if (table.rows != 0 && table.columns != dimension)
+    throw Error(ErrorCode::invalid_parameters,
+                "points of a " + std::string(domain->type()) + " have " + std::to_string(dimension) +
+                    " coordinates; these have " + std::to_string(table.columns),
+                document.points_pointer);
+  PointSet points{std::move(domain), std::move(table.values)};
+  try {
+    require_usable(points);
+  } catch (const Error& error) {
+    throw error.within(document.points_pointer);
+  }
+  return points;
+}
+
+PointSet job_points_field(Fields& fields, const JobPoints& job_points) {
+  const std::string id = *fields.text("job");
+  fields.refuse_unknown();
+  try {
+    return job_points(id);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.what(), fields.pointer_to("job"));
+  }
+}
+
+/// {"generate": {...}} or {"job": "..."} or {"points": [...], "domain": {...}}
+PointSource source_object(const json& value, Document& document, std::uint64_t limit,
+                          const JobPoints& job_points) {
+  Fields fields(value, "/points");
+  const json *generate = fields.find("generate"), *job = fields.find("job"), *points = fields.find("points");
+  if ((generate != nullptr) + (job != nullptr) + (points != nullptr) != 1)
+    throw Error(ErrorCode::invalid_parameters, "give exactly one of generate, job or points", "/points");
+  if (generate != nullptr) {
+    fields.refuse_unknown();
+    Fields inner(*generate, "/points/generate");
+    GenerateRequest request = generate_request(inner, limit);
+    inner.refuse_unknown();
+    return request;
+  }
+  if (job != nullptr) return job_points_field(fields, job_points);
+  if (!document.points)
+    throw Error(ErrorCode::invalid_parameters, "expected an array of points, found " + describe(*points),
+                "/points/points");
+  std::shared_ptr<const Domain> domain = domain_field(fields);
+  fields.refuse_unknown();
+  return inline_points(std::move(domain), document);
+}
+
+PointSource point_source(Fields& fields, Document& document, std::uint64_t limit,
+                         const JobPoints& job_points) {
+  const json& value = fields.require("points", "[[x, y], ...], {\"generate\": {...}} or {\"job\": \"...\"}");
+  if (value.is_array()) {
+    if (!document.points) document.points = Table{};
+    return inline_points(domain_field(fields), document);
+  }
+  PointSource source = source_object(value, document, limit, job_points);
+  if (fields.find("domain") != nullptr)
+    throw Error(ErrorCode::invalid_parameters, "the points bring their own domain; put it where they are",
+                "/domain");
+  if (const auto* generated = std::get_if<GenerateRequest>(&source))
+    if (generated->method->expected_count(*generated->domain, generated->arguments) < 3)
+      throw Error(ErrorCode::degenerate_input, "at least 3 points are needed here", "/points/generate");
+  return source;
+}
+
+OptimizeRequest optimize_request(Fields& fields, Document& document, const Limits& limits,
+                                 const JobPoints& job_points) {
+  OptimizeRequest request;
+  // The method's own fields first: they are cheap to check, the points are not.
+  request.method =
+      &find_row(optimizers(), fields.text("method").value_or(optimizers().front().name), "/method");
+  request.arguments = read_arguments(*request.method, fields);
+  fields.find("points");
+  fields.find("domain");
+  fields.refuse_unknown();
+  request.points = point_source(fields, document, limits.optimize_points, job_points);
+  return request;
+}
+
+std::vector<const Measure*> measures_field(Fields& fields) {
+  const json* value = fields.find("measures");
+  if (value == nullptr) return {&measures().front()};
+  if (!value->is_array() || value->empty())
+    throw Error(ErrorCode::invalid_parameters,
+                "expected an array of one or more names, found " + describe(*value), "/measures");
+  std::vector<const Measure*> wanted;
+  for (std::size_t k = 0; k < value->size(); ++k) {
+    const std::string where = "/measures/" + std::to_string(k);
+    if (!(*value)[k].is_string())
+      throw Error(ErrorCode::invalid_parameters, "expected a string, found " + describe((*value)[k]), where);
+    const Measure* measure = &find_row(measures(), (*value)[k].get<std::string>(), where);
+    if (std::find(wanted.begin(), wanted.end(), measure) != wanted.end())
+      throw Error(ErrorCode::invalid_parameters, "the measure is named twice", where);
+    wanted.push_back(measure);
+  }
+  return wanted;
+}
+
+AnalyzeRequest analyze_request(Fields& fields, Document& document, const Limits& limits,
+                               const JobPoints& job_points) {
+  AnalyzeRequest request;
+  request.measures = measures_field(fields);
+  fields.find("points");
+  fields.find("domain");
+  fields.refuse_unknown();
+  request.points = point_source(fields, document, limits.analyze_points, job_points);
+  return request;
+}
+
+double source_points(const PointSource& source) {
+  if (const auto* points = std::get_if<PointSet>(&source)) return static_cast<double>(points->size());
+  const auto& generate = std::get<GenerateRequest>(source);
+  return generate.method->expected_count(*generate.domain, generate.arguments);
+}
+
+Cost times(double n, Cost cost) { return {n * cost.seconds, n * cost.bytes}; }
+Cost operator+(Cost a, Cost b) { return {a.seconds + b.seconds, a.bytes + b.bytes}; }
+
+Cost generate_cost(const GenerateRequest& request) {
+  return times(request.method->expected_count(*request.domain, request.arguments),
+               request.method->cost_a_point);
+}
+
+Cost source_cost(const PointSource& source) {
+  const auto* generate = std::get_if<GenerateRequest>(&source);
+  return generate != nullptr ? generate_cost(*generate) : times(source_points(source), {0, 32});
+}
+
+}  // namespace
+
+std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer) {
+  Fields fields(value, pointer);
+  const std::string type = fields.text("type").value_or("torus");
+  if (type != "torus")
+    throw Error(ErrorCode::invalid_parameters, "unknown domain; there is: torus", fields.pointer_to("type"));
+  const double width = fields.number("width").value_or(1), height = fields.number("height").value_or(1);
+  fields.refuse_unknown();
+  try {
+    return std::make_shared<Torus>(width, height);
+  } catch (const Error& error) {
+    throw error.within(pointer);
+  }
+}
+
+nlohmann::ordered_json domain_to_json(const Domain& domain) {
+  const Box box = domain.box();
+  return {{"type", domain.type()}, {"width", box.size.x}, {"height", box.size.y}};
+}
+
+Request read_request(const RawRequest& raw, const Limits& limits, const JobPoints& job_points) {
+  Document document = read_document(raw, limits);
+  Fields fields(document.root, "");
+  Request request;
+  request.picture = fields.text("picture").value_or("");
+  if (!request.picture.empty()) require_picture(request.picture, "/picture");
+  if (raw.operation == "generate") {
+    request.operation = generate_request(fields, limits.generate_points);
+    fields.refuse_unknown();
+  } else if (raw.operation == "optimize") {
+    request.operation = optimize_request(fields, document, limits, job_points);
+  } else {
+    request.operation = analyze_request(fields, document, limits, job_points);
+  }
+  require_affordable(request, limits);
+  return request;
+}
+
+double expected_points(const Request& request) {
+  if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
+    return source_points(optimize->points);
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation))
+    return source_points(analyze->points);
+  const auto& generate = std::get<GenerateRequest>(request.operation);
+  return generate.method->expected_count(*generate.domain, generate.arguments);
+}
+
+Cost expected_cost(const Request& request) {
+  constexpr Cost writing = {2e-7, 64};  // a point of the result, as text at worst
+  const double n = expected_points(request);
+  if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
+    return source_cost(optimize->points) +
+           times(n, optimize->method->cost_a_point(optimize->arguments) + writing);
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
+    Cost cost = source_cost(analyze->points);
+    for (const Measure* measure : analyze->measures) cost = cost + times(n, measure->cost_a_point);
+    return cost;
+  }
+  return generate_cost(std::get<GenerateRequest>(request.operation)) + times(n, writing);
+}
+
+void require_affordable(const Request& request, const Limits& limits) {
+  const double bytes = expected_cost(request).bytes;
+  if (bytes <= static_cast<double>(limits.memory_bytes)) return;
+  throw Error(ErrorCode::too_large,
+              "the job would need about " + std::to_string(static_cast<std::uint64_t>(bytes) >> 20) +
+                  " MiB of memory, but the limit here is " + std::to_string(limits.memory_bytes >> 20) +
+                  " MiB; ask for fewer points");
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/control.h"
+#include "core/point_set.h"
+#include "proto/formats/media.h"
+#include "proto/limits.h"
+
+namespace wellspaced {
+
+/// What an operation gives: a summary, and the points that it made or looked at.
+struct Result {
+  std::string operation;
+  nlohmann::ordered_json
+      summary;  ///< as users see it, all but the points; nothing in it depends on time, job or machine
+  PointSet points;
+  std::string picture;  ///< that the request asked for, or empty
+};
+
+/// What the program's version is; part of every summary.
+std::string_view version();
+
+/// The bytes in which a result is kept, and back. Errors of read: internal if they aren't such bytes.
+std::string store_result(const Result& result);
+Result load_result(std::string_view bytes);
+
+/// The formats a result of that operation can be had in, the default one first.
+std::span<const Format> formats_of(std::string_view operation);
+
+/// A result on its way to a user.
+struct Encoded {
+  std::string bytes, media_type;
+  std::string summary_line;  ///< JSON without arrays, one line, for binary formats; empty otherwise
+  std::string file_name;
+};
+
+/// Writes a result. `picture` (may be empty) wins over the request's own; only for svg.
+///
+/// Guarantees: the same result and format give the same bytes.
+/// Errors: too_large for pictures of more points than the limit; those of render_svg.
+Encoded encode_result(const Result& result, Format format, std::string_view picture, const Limits& limits,
+                      const Control& control);
+
+}  // namespace wellspaced

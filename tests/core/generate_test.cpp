@@ -1,0 +1,126 @@
+#include "core/generate/generate.h"
+
+#include <gtest/gtest.h>
+
+#include "core/analyze/spacing.h"
+#include "core/generate/lattice.h"
+#include "core/generate/poisson_disk.h"
+#include "core/generate/white_noise.h"
+#include "core/registry.h"
+#include "tests/support/oracle.h"
+
+namespace wellspaced {
+namespace {
+
+using testing::brute_r_c;
+using testing::brute_r_f;
+using testing::expect_error;
+
+PointSet mps(double width, double height, double radius, std::uint64_t seed, unsigned threads = 1) {
+  Rng rng(seed);
+  Control control(threads);
+  return poisson_disk(std::make_shared<Torus>(width, height), {radius}, rng, control);
+}
+
+TEST(PoissonDisk, KeepsBothOfItsGuaranteesOnEveryTorus) {
+  struct Case {
+    double width, height, radius;
+  };
+  const Case cases[] = {{1, 1, 0.7},    {1, 1, 0.5},     {1, 1, 0.4},    {1, 1, 0.2},
+                        {1, 1, 0.05},   {1, 1, 0.02},    {4, 0.5, 0.06}, {1, 0.05, 0.03},
+                        {1, 0.05, 0.2}, {0.01, 1, 0.05}, {300, 200, 11}, {1e-3, 1e-3, 5e-5}};
+  for (const Case& c : cases)
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      SCOPED_TRACE(::testing::Message()
+                   << c.width << " x " << c.height << ", r " << c.radius << ", seed " << seed);
+      const PointSet points = mps(c.width, c.height, c.radius, seed);
+      ASSERT_GE(points.size(), 1u);
+      EXPECT_GE(brute_r_f(points), c.radius);
+      EXPECT_LE(brute_r_c(points, 1e-4 * c.radius), c.radius * (1 + 1e-4)) << "a dart would still fit";
+      if (points.size() < 3) continue;
+      EXPECT_LE(measure_spacing(points, Control()).r_c, c.radius * (1 + 1e-9));
+    }
+}
+
+TEST(PoissonDisk, HasThePublishedStatistics) {
+  // n r^2 in .690 to .703, rho .777, valence 4..8: 1.1/24.6/50.0/21.8/2.4 %, mean beta_i .859, mean nearest
+  // distance 1.054 r.
+  double beta_i = 0, nearest = 0, density = 0;
+  std::map<int, double> valence;
+  constexpr int sets = 5;
+  for (std::uint64_t seed = 1; seed <= sets; ++seed) {
+    const double r = poisson_disk_radius(1, 10000);
+    const Spacing s = measure_spacing(mps(1, 1, r, seed), Control(2));
+    EXPECT_NEAR(static_cast<double>(s.n), 10000, 100);
+    EXPECT_LE(s.beta, 1 + 1e-9);
+    beta_i += s.beta_i_mean / sets;
+    nearest += s.nearest_mean * hexagonal_spacing(1, s.n) / r / sets;
+    density += static_cast<double>(s.n) * r * r / sets;
+    for (const auto& [k, count] : s.valence)
+      valence[k] += 100.0 * static_cast<double>(count) / static_cast<double>(s.n) / sets;
+  }
+  EXPECT_NEAR(beta_i, 0.859, 0.003);
+  EXPECT_NEAR(nearest, 1.054, 0.003);
+  EXPECT_GT(density, 0.690);
+  EXPECT_LT(density, 0.703);
+  EXPECT_NEAR(valence[5], 24.6, 1);
+  EXPECT_NEAR(valence[6], 50.0, 1);
+  EXPECT_NEAR(valence[7], 21.8, 1);
+}
+
+TEST(PoissonDisk, DependsOnItsSeedOnly) {
+  const PointSet one = mps(1, 1, 0.01, 3, 1), two = mps(1, 1, 0.01, 3, 2), other = mps(1, 1, 0.01, 4, 1);
+  EXPECT_EQ(one.coordinates, two.coordinates);
+  EXPECT_NE(one.coordinates, other.coordinates);
+}
+
+TEST(PoissonDisk, RefusesRadiiThatLeaveNoRoom) {
+  expect_error([] { mps(1, 1, 0.71, 1); }, ErrorCode::infeasible, "/radius", "0.707");
+  expect_error([] { mps(1, 1, 0, 1); }, ErrorCode::invalid_parameters, "/radius");
+  expect_error([] { mps(1, 1, std::nan(""), 1); }, ErrorCode::invalid_parameters, "/radius");
+}
+
+TEST(PoissonDisk, CanBeCancelled) {
+  Rng rng(1);
+  Control control;
+  control.cancel();
+  expect_error([&] { poisson_disk(std::make_shared<Torus>(), {0.01}, rng, control); }, ErrorCode::cancelled,
+               "");
+}
+
+TEST(Generators, StayInTheirDomainAndNearTheirCount) {
+  for (const Generator& generator : generators())
+    for (const auto& [width, height] : {std::pair{1.0, 1.0}, std::pair{3.0, 0.5}, std::pair{0.1, 7.0}})
+      for (double count : {1.0, 2.0, 3.0, 10.0, 100.0, 997.0, 10000.0}) {
+        SCOPED_TRACE(generator.name + " " + std::to_string(count) + " on height " + std::to_string(height));
+        const auto torus = std::make_shared<Torus>(width, height);
+        Rng rng(1);
+        Control control(2);
+        const PointSet points = generator.run(torus, {{"count", count}}, rng, control);
+        for (std::size_t i = 0; i < points.size(); ++i) ASSERT_FALSE(torus->why_outside(points[i]));
+        EXPECT_GE(points.size(), 1u);
+        const double off = generator.name == "white-noise" ? 0 : count >= 10000 ? 0.02 : 1e9;
+        EXPECT_NEAR(static_cast<double>(points.size()), count, off * count);
+        Rng again(1);
+        EXPECT_EQ(generator.run(torus, {{"count", count}}, again, control).coordinates, points.coordinates);
+      }
+}
+
+TEST(Lattices, AreStretchedLittleWhenTheyDoNotFit) {
+  Control control;
+  const auto torus = std::make_shared<Torus>(1, 1);
+  EXPECT_LT(measure_spacing(triangular_lattice(torus, 10000, control), control).beta, 0.59);
+  EXPECT_LT(measure_spacing(hexagonal_lattice(torus, 10000, control), control).beta, 1.03);
+}
+
+TEST(WhiteNoise, IsUniform) {
+  Rng rng(1);
+  Control control;
+  const PointSet points = white_noise(std::make_shared<Torus>(2, 1), 40000, rng, control);
+  int quarters[4] = {};
+  for (std::size_t i = 0; i < points.size(); ++i) ++quarters[(points[i].x >= 1) + 2 * (points[i].y >= 0.5)];
+  for (int count : quarters) EXPECT_NEAR(count, 10000, 440);  // five standard deviations
+}
+
+}  // namespace
+}  // namespace wellspaced

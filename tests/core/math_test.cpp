@@ -1,0 +1,54 @@
+#include "core/math.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/rng.h"
+
+namespace wellspaced {
+namespace {
+
+TEST(PortableAtan2, AgreesWithLibmEverywhere) {
+  Rng rng(1);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = (rng.uniform() - 0.5) * std::pow(10, 20 * rng.uniform() - 10);
+    const double y = (rng.uniform() - 0.5) * std::pow(10, 20 * rng.uniform() - 10);
+    const double wanted = std::atan2(y, x);
+    EXPECT_NEAR(portable_atan2(y, x), wanted, 8e-16 * std::fabs(wanted)) << y << " " << x;
+  }
+}
+
+TEST(PortableAtan2, IsRightOnTheAxes) {
+  EXPECT_EQ(portable_atan2(0, 0), 0);
+  EXPECT_DOUBLE_EQ(portable_atan2(0, 2), 0);
+  EXPECT_DOUBLE_EQ(portable_atan2(3, 0), pi / 2);
+  EXPECT_DOUBLE_EQ(portable_atan2(-3, 0), -pi / 2);
+  EXPECT_DOUBLE_EQ(portable_atan2(0, -1), pi);
+}
+
+TEST(Rng, DrawsTheSameNumbersEverywhere) {
+  Rng rng(42);
+  const std::uint64_t first = rng.next();
+  EXPECT_EQ(Rng(42).next(), first);
+  EXPECT_NE(Rng(43).next(), first);
+  EXPECT_NE(Rng(42, 1).next(), first);
+}
+
+TEST(Rng, IsUniform) {
+  Rng rng(7);
+  int counts[10] = {};
+  double sum = 0;
+  for (int i = 0; i < 100000; ++i) {
+    ++counts[rng.below(10)];
+    const double u = rng.uniform();
+    ASSERT_GE(u, 0);
+    ASSERT_LT(u, 1);
+    sum += u;
+  }
+  for (int count : counts) EXPECT_NEAR(count, 10000, 500);  // five standard deviations
+  EXPECT_NEAR(sum / 100000, 0.5, 0.005);
+}
+
+}  // namespace
+}  // namespace wellspaced
