@@ -34,17 +34,14 @@ struct Exchange {
 /// HTTP/1.1 on top of cpp-httplib's parser, made fit for an open network.
 ///
 /// Guarantees
-/// 1. A handler sees only requests with a vetted header block: no Transfer-Encoding (411), no
-/// Content-Encoding (415), one
+/// 1. A handler sees only requests with a vetted header block: no Transfer-Encoding (411), no Content-Encoding (415), one
 ///    Content-Length, no obs-fold, no body on GET and HEAD, at most the limits above (431, 413, 414, 408).
 /// 2. Every refusal is a problem document, and `Expect: 100-continue` is answered before the body is read.
 /// 3. Idle kept-alive connections and event streams occupy no pool thread.
-/// 4. A handler's exception never reaches the client as text: Error -> its problem; anything else -> 500 with
-/// the request id.
+/// 4. A handler's exception never reaches the client as text: Error -> its problem; anything else -> 500 with the request id.
 /// 5. HEAD gets the GET handler's headers without its body.
 ///
-/// Thread safety: the handler is called from many threads at once; `stop` from any thread, also before
-/// `start`.
+/// Thread safety: the handler is called from many threads at once; `stop` from any thread, also before `start`.
 class Guard {
  public:
   Guard(GuardOptions options, Handler handler, std::function<void(const Exchange&)> on_exchange = {});
@@ -54,8 +51,8 @@ class Guard {
   void listen();
   int port() const;
 
-  /// Serves until `stop`. Then: takes no new connections, lets running handlers finish and their answers go
-  /// out, closes parked ones, ends event streams, and returns.
+  /// Serves until `stop`. Then: takes no new connections, lets running handlers finish and their answers go out,
+  /// closes parked ones, ends event streams, and returns.
   void serve();
   void stop();
 

@@ -10,12 +10,12 @@
 namespace wellspaced {
 
 struct JobLimits {
-  int queue = 1000;         ///< accepted jobs over all owners; above: Error{overloaded}
-  int live_per_owner = 16;  ///< accepted or running, not attached; above: Error{too_many_jobs}
+  int queue = 1000;               ///< accepted jobs over all owners; above: Error{overloaded}
+  int live_per_owner = 16;        ///< accepted or running, not attached; above: Error{too_many_jobs}
   std::int64_t lease_ms = 30'000;
   std::int64_t keep_result_ms = 24ll * 3600 * 1000;
-  int max_attempts = 3;      ///< then failed with worker_crashed
-  int events_per_job = 256;  ///< the oldest are dropped first
+  int max_attempts = 3;           ///< then failed with worker_crashed
+  int events_per_job = 256;       ///< the oldest are dropped first
 };
 
 struct JobFilter {
@@ -43,11 +43,9 @@ enum class CancelOutcome { requested, already_over, unknown };
 ///
 /// Guarantees
 /// 1. `submit` returns after the job is on disk: nothing acknowledged is lost by a crash at any time.
-/// 2. A job's result is written once: complete, fail, release and heartbeat count only while (id, attempt)
-/// holds the job.
+/// 2. A job's result is written once: complete, fail, release and heartbeat count only while (id, attempt) holds the job.
 /// 3. Only the store's clock decides about leases and expiry.
-/// 4. An accepted job whose cancel is requested becomes dismissed at once; a running one when its worker says
-/// so.
+/// 4. An accepted job whose cancel is requested becomes dismissed at once; a running one when its worker says so.
 ///
 /// Errors of every call: storage_unavailable, storage_full. Thread safety: all calls from any thread.
 class JobStore {
@@ -57,8 +55,8 @@ class JobStore {
   /// Errors: overloaded, too_many_jobs.
   virtual Job submit(const JobSpec& spec) = 0;
 
-  /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of
-  /// attempts become failed (worker_crashed), attached ones whose lease ran out become dismissed.
+  /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of attempts become
+  /// failed (worker_crashed), attached ones whose lease ran out become dismissed.
   virtual std::optional<Claim> claim(const std::string& worker) = 0;
   virtual Heartbeat heartbeat(const Claim& claim, double progress, const std::string& message) = 0;
   /// Each returns false, and changes nothing, if the claim no longer holds the job.
@@ -74,16 +72,14 @@ class JobStore {
   /// Deletes a finished job with its result. False if there is none such or it is live.
   virtual bool purge(const std::string& id) = 0;
 
-  /// The result's bytes. Errors: no_such_job, result_not_ready, result_expired, conflict (failed or
-  /// dismissed).
+  /// The result's bytes. Errors: no_such_job, result_not_ready, result_expired, conflict (failed or dismissed).
   virtual std::string result(const std::string& id) = 0;
 
   /// Appends an event (attempt-fenced); false if the claim no longer holds the job.
   virtual bool append_event(const Claim& claim, const std::string& type, const std::string& json) = 0;
   virtual std::vector<JobEvent> events_after(const std::string& id, std::int64_t sequence) = 0;
 
-  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows. Number
-  /// of rows touched.
+  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows. Number of rows touched.
   virtual int expire() = 0;
   virtual JobCounts counts() = 0;
   /// Throws if the store can't be used (readyz).
