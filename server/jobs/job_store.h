@@ -46,6 +46,8 @@ enum class CancelOutcome { requested, already_over, unknown };
 /// 2. A job's result is written once: complete, fail, release and heartbeat count only while (id, attempt) holds the job.
 /// 3. Only the store's clock decides about leases and expiry.
 /// 4. An accepted job whose cancel is requested becomes dismissed at once; a running one when its worker says so.
+/// 5. Every change of status appends an event "status", the last one also "done", with {"id","status","progress","attempt"}.
+/// 6. Ids ascend in the order of submission; each claim of a job has a greater attempt than the one before.
 ///
 /// Errors of every call: storage_unavailable, storage_full. Thread safety: all calls from any thread.
 class JobStore {
@@ -59,11 +61,13 @@ class JobStore {
   /// failed (worker_crashed), attached ones whose lease ran out become dismissed.
   virtual std::optional<Claim> claim(const std::string& worker) = 0;
   virtual Heartbeat heartbeat(const Claim& claim, double progress, const std::string& message) = 0;
-  /// Each returns false, and changes nothing, if the claim no longer holds the job.
+  /// Each returns false, and changes nothing, if the claim no longer holds the job. A job whose cancel is requested may
+  /// still be completed or failed: what reaches the store first counts.
   virtual bool complete(const Claim& claim, const std::string& result) = 0;
   virtual bool fail(const Claim& claim, const std::string& problem_json) = 0;
   virtual bool dismiss(const Claim& claim) = 0;  ///< the worker has stopped a cancelled job
-  virtual bool release(const Claim& claim) = 0;  ///< back to the queue, attempt not counted (shutdown)
+  /// Back to the queue at its old place, not counted as a crash (shutdown). A cancelled or attached job becomes dismissed.
+  virtual bool release(const Claim& claim) = 0;
 
   virtual std::optional<Job> find(const std::string& id) = 0;
   /// Newest first, at most `limit`; a full page means that there may be more.
