@@ -20,6 +20,7 @@ struct GuardOptions {
   int body_timeout_ms = 60'000;               ///< without progress of at least 64 KiB per timeout
   int write_timeout_ms = 60'000;              ///< likewise
   int idle_timeout_ms = 60'000;               ///< between requests of a kept-alive connection
+  int drain_timeout_ms = 20'000;              ///< after stop, for everything but running handlers
   std::size_t connection_limit = 8192;        ///< parked and active; above it: 503 and close
 };
 
@@ -34,14 +35,18 @@ struct Exchange {
 /// HTTP/1.1 on top of cpp-httplib's parser, made fit for an open network.
 ///
 /// Guarantees
-/// 1. A handler sees only requests with a vetted header block: no Transfer-Encoding (411), no Content-Encoding (415), one
-///    Content-Length, no obs-fold, no body on GET and HEAD, at most the limits above (431, 413, 414, 408).
+/// 1. A handler sees only requests with a vetted header block: no Transfer-Encoding (411), no
+///    Content-Encoding (415), one Content-Length, no obs-fold, no body on GET and HEAD, at most the limits
+///    above (431, 413, 414, 408).
 /// 2. Every refusal is a problem document, and `Expect: 100-continue` is answered before the body is read.
-/// 3. Idle kept-alive connections and event streams occupy no pool thread.
-/// 4. A handler's exception never reaches the client as text: Error -> its problem; anything else -> 500 with the request id.
+/// 3. Idle, slow and refused connections and event streams occupy no pool thread: only a complete request
+///    does, and a response that its client is slow to read does no longer.
+/// 4. A handler's exception never reaches the client as text: Error -> its problem; anything else -> 500
+///    with the request id.
 /// 5. HEAD gets the GET handler's headers without its body.
 ///
-/// Thread safety: the handler is called from many threads at once; `stop` from any thread, also before `start`.
+/// Thread safety: the handler is called from many threads at once, `on_exchange` from the thread in `serve`
+/// (it must not block); `stop` and `wake` from any thread, also before `serve`.
 class Guard {
  public:
   Guard(GuardOptions options, Handler handler, std::function<void(const Exchange&)> on_exchange = {});
@@ -51,8 +56,8 @@ class Guard {
   void listen();
   int port() const;
 
-  /// Serves until `stop`. Then: takes no new connections, lets running handlers finish and their answers go out,
-  /// closes parked ones, ends event streams, and returns.
+  /// Serves until `stop`. Then: takes no new connections, lets running handlers finish and their answers go
+  /// out, closes parked ones, ends event streams, and returns.
   void serve();
   void stop();
 

@@ -20,15 +20,17 @@ using Headers = std::multimap<std::string, std::string, CaseInsensitiveLess>;
 
 /// A vetted request: the guard has already refused everything that is not plain HTTP/1.1 (see guard.h).
 struct Request {
-  std::string method;                                           ///< "GET", "HEAD", "POST", "DELETE", ...
-  std::string path;                                             ///< without the query, percent-decoded
-  std::vector<std::string> segments;                            ///< of the path, each decoded after splitting on '/'
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< of the path pattern: {id}
-  std::vector<std::pair<std::string, std::string>> query;       ///< decoded, in order, duplicates kept
+  std::string method;                 ///< "GET", "HEAD", "POST", "DELETE", ...
+  std::string target;                 ///< path and query as sent, not decoded
+  std::string path;                   ///< without the query, percent-decoded
+  std::vector<std::string> segments;  ///< of the path, each decoded after splitting on '/'
+  /// Of the path pattern: {id}. Mutable because the router, alone, fills it in without copying the request.
+  mutable std::vector<std::pair<std::string, std::string>> parameters;
+  std::vector<std::pair<std::string, std::string>> query;  ///< decoded, in order, duplicates kept
   Headers headers;
   std::string body;
-  std::string id;                           ///< request id: the client's X-Request-Id if sane, else our own
-  std::function<bool()> client_is_gone;     ///< polls the socket; true once the peer has closed it
+  std::string id;                        ///< request id: the client's X-Request-Id if sane, else our own
+  std::function<bool()> client_is_gone;  ///< polls the socket; true once the peer has closed it
 
   /// First value of a header, or empty.
   std::string_view header(std::string_view name) const;
@@ -49,7 +51,7 @@ struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::unique_ptr<EventSource> events;  ///< when set, `body` is sent first and then whatever the source yields
+  std::unique_ptr<EventSource> events;  ///< when set: `body` goes out first, then what the source yields
   std::string route;                    ///< pattern that matched, for logs and metrics; set by the router
 
   Response& set(std::string name, std::string value) {

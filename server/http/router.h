@@ -13,7 +13,8 @@ struct Route {
   Handler handler;
 };
 
-/// Exact match on path segments; no regular expressions, no recursion.
+/// Exact match on path segments; no regular expressions, no recursion. The first route of the table that
+/// matches wins; a {parameter} matches any segment but an empty one.
 ///
 /// Errors as problems: 404 not-found for an unknown path, 405 with Allow for a known path and another method.
 /// OPTIONS on a known path: 204 with Allow.
@@ -25,6 +26,7 @@ class Router {
 
  private:
   std::vector<Route> routes_;
+  std::vector<std::vector<std::string>> patterns_;  ///< of routes_, split
 };
 
 }  // namespace wellspaced::http
