@@ -9,9 +9,10 @@ namespace wellspaced {
 /// for NaN and infinity, which JSON can't write. Independent of the locale.
 void append_number(std::string& out, double value);
 
-/// "[[x,y],[x,y],...]" of rows * columns row-major doubles, numbers as by `append_number`, no blanks. "[]"
-/// without rows. Cost: one allocation of address space for the longest possible text (25 bytes a number);
-/// only what is written is touched.
+/// "[[x,y],[x,y],...]" of rows * columns row-major doubles, numbers as by `append_number`, no blanks; "[]"
+/// without rows.
+/// Cost: linear; reserves address space for the longest possible text (25 bytes a number), touches what it
+/// writes.
 std::string rows_to_json(const double* values, std::size_t rows, std::size_t columns);
 
 }  // namespace wellspaced

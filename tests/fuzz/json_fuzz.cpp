@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     compare(document, Json::parse(text));
   } catch (const Error& error) {
     for (const char c : std::string_view(error.what())) require(c >= ' ' && c <= '~');
-    Json().push_back(error.where()).dump();  // throws on invalid UTF-8
+    Json(error.where()).dump();  // throws on invalid UTF-8
     const bool limits = std::string_view(error.what()).find("deeper") != std::string_view::npos;
     const bool nul = text.find('\0') != std::string::npos;
     if (error.code() == ErrorCode::malformed_request && !limits && !nul) require(!Json::accept(text));
