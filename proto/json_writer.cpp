@@ -1,9 +1,9 @@
 #include "proto/json_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 
 namespace wellspaced {
 namespace {
@@ -12,8 +12,7 @@ constexpr std::size_t longest_number = 24;  // -1.7976931348623157e+308
 
 char* write_number(char* to, double value) {
   if (std::isfinite(value)) return std::to_chars(to, to + longest_number, value).ptr;
-  std::memcpy(to, "null", 4);
-  return to + 4;
+  return std::copy_n("null", 4, to);
 }
 
 }  // namespace
