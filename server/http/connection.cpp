@@ -80,6 +80,7 @@ void reset_exchange(Connection& connection) {
   connection.sent = 0;
   connection.scanned = 0;
   connection.reported = false;
+  connection.pending_route.clear();
 }
 
 std::string request_id(std::string_view offered) {

@@ -28,6 +28,7 @@ struct Connection {
     head,       ///< waiting for, or in the middle of, a header block
     body,       ///< the head is vetted, the body is arriving
     handling,   ///< with a worker
+    waiting,    ///< for its `pending` response to be ready
     writing,    ///< the response is going out
     streaming,  ///< the response is an event stream
     lingering,  ///< everything is said; waiting for the client to close, so that a reset can't eat the
@@ -46,6 +47,9 @@ struct Connection {
   std::size_t sent = 0;  ///< of out_head and out_body together
   bool close_after = false;
   std::unique_ptr<EventSource> events;
+  std::unique_ptr<Pending> pending;
+  std::string pending_route;  ///< the route that made `pending`
+  bool abandoned = false;  ///< the client closed while its response was pending
   Exchange exchange;
   bool reported = false;  ///< the exchange has been told to on_exchange
   Clock::time_point started;

@@ -95,12 +95,18 @@ class Guard::Impl {
   }
 
   void answer(Engine& engine, Connection& connection) {
+    if (connection.abandoned) return abandon(connection);
     Request& request = connection.request;
+    Response response = handle(connection);
+    connection.pending = std::move(response.pending);
+    if (connection.pending) {
+      connection.pending_route = std::move(response.route);
+      return;
+    }
+    if (response.route.empty()) response.route = std::move(connection.pending_route);
     request.client_is_gone = [fd = connection.socket.get()] { return peer_closed(fd); };
     connection.close_after = !connection.head.keep_alive || hub_.stopping();
-    Response response;
     connection.out_head = engine.exchange(request.method + ' ' + request.target + " HTTP/1.1", [&] {
-      response = handle(request);
       // The end of an event stream is the end of its connection.
       connection.close_after = connection.close_after || response.events != nullptr;
       return reply_head(response, {request.id, connection.close_after, connection.head.old_version});
@@ -120,9 +126,24 @@ class Guard::Impl {
     flush(connection, SIZE_MAX);
   }
 
-  Response handle(const Request& request) {
+  /// The client has gone; whoever works for it is told.
+  void abandon(Connection& connection) {
     try {
-      return handler_(request);
+      connection.pending->abandon();
+    } catch (...) {  // nobody is left to hear of it
+    }
+    connection.exchange.status = 499;
+    connection.exchange.id = connection.request.id;
+    connection.exchange.method = connection.request.method;
+    connection.exchange.target = connection.request.target;
+    connection.exchange.route = connection.pending_route;
+  }
+
+  Response handle(Connection& connection) {
+    const Request& request = connection.request;
+    try {
+      const std::unique_ptr<Pending> pending = std::move(connection.pending);
+      return pending ? pending->finish() : handler_(request);
     } catch (const Error& error) {
       return to_response(to_problem(error), request.id);
     } catch (...) {

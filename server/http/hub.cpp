@@ -140,6 +140,17 @@ void Hub::take_returned() {
     returned.swap(returned_);
   }
   for (Connection* connection : returned) {
+    if (connection->abandoned) {
+      connection->state = State::writing;  // nobody is there to write to
+      close(*connection);
+      continue;
+    }
+    if (connection->pending) {
+      connection->state = State::waiting;
+      connection->deadline = Clock::time_point::max();
+      poll_wanted_ = true;  // it may have become ready in between
+      continue;
+    }
     connection->state = State::writing;
     connection->progress_mark = connection->sent;
     connection->deadline = now_ + milliseconds(options_.write_timeout_ms);
@@ -210,6 +221,10 @@ void Hub::tick() {
 }
 
 void Hub::expire(Connection& connection) {
+  if (connection.state == State::waiting) {
+    connection.abandoned = true;
+    return dispatch(connection);
+  }
   const bool reading =
       (connection.state == State::head && !connection.in.empty()) || connection.state == State::body;
   if (!reading) return close(connection);
@@ -223,13 +238,16 @@ void Hub::expire(Connection& connection) {
 void Hub::poll_streams() {
   poll_wanted_ = false;
   last_poll_ = now_;
-  std::vector<Connection*> streams;
-  for (const auto& [connection, owned] : connections_)
+  std::vector<Connection*> streams, waiting;
+  for (const auto& [connection, owned] : connections_) {
     if (connection->state == State::streaming) streams.push_back(connection);
+    if (connection->state == State::waiting) waiting.push_back(connection);
+  }
   for (Connection* connection : streams) {
     poll_stream(*connection);
     advance(*connection);
   }
+  for (Connection* connection : waiting) poll_pending(*connection);
 }
 
 void Hub::begin_drain() {

@@ -69,6 +69,8 @@ class Hub {
   void expire(Connection& connection);
   void poll_streams();
   void poll_stream(Connection& connection);
+  void poll_pending(Connection& connection);
+  void dispatch(Connection& connection);
   void begin_drain();
 
   GuardOptions options_;

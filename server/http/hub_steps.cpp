@@ -45,6 +45,8 @@ bool Hub::step(Connection& connection) {
     case State::streaming:
     case State::lingering:
       return discard_input(connection);
+    case State::waiting:
+      return poll_pending(connection), false;
     case State::handling:
     case State::closed:
       return false;
@@ -117,9 +119,13 @@ bool Hub::read_body(Connection& connection) {
     if (io == Io::failed) return close(connection), false;
   }
   connection.exchange.bytes_in += length;
+  dispatch(connection);
+  return false;
+}
+
+void Hub::dispatch(Connection& connection) {
   connection.state = State::handling;
   callbacks_.dispatch(connection);
-  return false;
 }
 
 // Slowness is allowed, standing still is not.
@@ -227,6 +233,12 @@ void Hub::report(Connection& connection) {
   connection.exchange.seconds = std::chrono::duration<double>(now_ - connection.started).count();
   connection.exchange.bytes_out += connection.sent;
   if (callbacks_.on_exchange) callbacks_.on_exchange(connection.exchange);
+}
+
+// Pipelined requests stay in the socket's buffer meanwhile: only the peer's end is looked for.
+void Hub::poll_pending(Connection& connection) {
+  connection.abandoned = peer_closed(connection.socket.get());
+  if (connection.abandoned || connection.pending->ready()) dispatch(connection);
 }
 
 void Hub::poll_stream(Connection& connection) {

@@ -47,11 +47,26 @@ class EventSource {
   virtual std::optional<std::string> poll() = 0;
 };
 
+struct Response;
+
+/// A response that is not known yet, because a job has to end first. Waiting occupies no pool thread.
+class Pending {
+ public:
+  virtual ~Pending() = default;
+  /// Asked on the hub thread every 200 ms or so and at once after `Guard::wake`. Must not block.
+  virtual bool ready() = 0;
+  /// Once, on a pool thread, when ready. Its exceptions become problems, as a handler's do.
+  virtual Response finish() = 0;
+  /// Instead of finish, on a pool thread: the client has closed its connection.
+  virtual void abandon() {}
+};
+
 struct Response {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
   std::unique_ptr<EventSource> events;  ///< when set: `body` goes out first, then what the source yields
+  std::unique_ptr<Pending> pending;     ///< when set, it alone counts: the response is what it finishes with
   std::string route;                    ///< pattern that matched, for logs and metrics; set by the router
 
   Response& set(std::string name, std::string value) {

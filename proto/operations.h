@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/registry.h"
+#include "proto/limits.h"
+
+namespace wellspaced {
+
+/// What /v1/operations tells: every operation with its methods, their parameters as JSON Schema, formats and limits. Made from
+/// the same registry that requests are validated by.
+nlohmann::ordered_json operations_json(const Limits& limits);
+
+/// JSON Schema of one parameter.
+nlohmann::ordered_json parameter_schema(const Parameter& parameter);
+
+}  // namespace wellspaced

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "server/config.h"
+#include "server/jobs/job_store.h"
+#include "server/jobs/worker_pool.h"
+#include "server/metrics.h"
+
+namespace wellspaced {
+
+/// What the handlers share; App owns it all.
+struct Context {
+  const Config& config;
+  JobStore& store;
+  Metrics& metrics;
+  WorkerPool* pool = nullptr;                ///< set before the first request
+  std::atomic<bool> draining = false;        ///< no new work is taken
+  std::atomic<std::uint64_t> changes = 0;    ///< grows whenever some job's state or events may have changed
+};
+
+}  // namespace wellspaced

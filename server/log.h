@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace wellspaced {
+
+/// One JSON object a line on standard error: {"time", "level", "message", ...fields}.
+/// Thread safety: any thread. Invalid UTF-8 in fields is replaced.
+void start_log(const std::string& level);
+void log_info(const std::string& message, nlohmann::ordered_json fields = {});
+void log_error(const std::string& message, nlohmann::ordered_json fields = {});
+
+/// Writes out what is buffered.
+void flush_log();
+
+}  // namespace wellspaced

@@ -1,0 +1,93 @@
+#include "server/run_command.h"
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "core/error.h"
+#include "proto/execute.h"
+#include "server/problem.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr int failed = 1, no_file = 2;
+
+bool ends_with(const std::string& path, std::string_view ending) { return path.ends_with(ending); }
+
+std::string content_type_of(const Invocation& i) {
+  if (!i.content_type.empty()) return i.content_type;
+  if (ends_with(i.request_path, ".npy")) return std::string(media_type_of(Format::npy));
+  if (ends_with(i.request_path, ".csv")) return std::string(media_type_of(Format::csv));
+  return std::string(media_type_of(Format::json));
+}
+
+Format output_format(const Invocation& i) {
+  std::string name = i.format;
+  if (name.empty() && i.output_path.find('.') != std::string::npos) name = i.output_path.substr(i.output_path.rfind('.') + 1);
+  return negotiate(name, "", formats_of(i.operation));
+}
+
+std::vector<std::pair<std::string, std::string>> read_query(const Invocation& i) {
+  std::vector<std::pair<std::string, std::string>> query;
+  for (const std::string& text : i.query) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorCode::invalid_parameters, "--query takes name=value, not '" + text + "'");
+    query.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return query;
+}
+
+bool read_file(const std::string& path, std::string& bytes) {
+  if (path == "-") {
+    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
+    return true;
+  }
+  std::ifstream file(path, std::ios::binary);
+  bytes.assign(std::istreambuf_iterator<char>(file), {});
+  return file.is_open() && !file.bad();
+}
+
+bool write_file(const std::string& path, const std::string& bytes) {
+  if (path == "-") return static_cast<bool>(std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush());
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  return static_cast<bool>(file);
+}
+
+std::string encoded_result(const Invocation& i, const std::string& body) {
+  const auto query = read_query(i);
+  const Format format = output_format(i);
+  if (!i.picture.empty()) require_picture(i.picture, "--picture");
+  const std::string content_type = content_type_of(i);
+  const JobPoints no_jobs = [](const std::string&) -> PointSet {
+    throw Error(ErrorCode::no_such_job, "wellspaced run knows no jobs; save the job's points and give them as npy or csv");
+  };
+  const Request request = read_request({i.operation, content_type, body, query}, i.config.limits, no_jobs);
+  Control control(i.config.threads);
+  return encode_result(execute(request, control), format, i.picture, i.config.limits, control).bytes;
+}
+
+}  // namespace
+
+int run_command(const Invocation& i) {
+  std::string body;
+  if (!read_file(i.request_path, body)) {
+    std::cerr << "wellspaced: can't read " << i.request_path << "\n";
+    return no_file;
+  }
+  std::string bytes;
+  try {
+    bytes = encoded_result(i, body);
+  } catch (const Error& error) {
+    std::cerr << to_json(to_problem(error), "") << "\n";
+    return failed;
+  }
+  if (write_file(i.output_path, bytes)) return 0;
+  std::cerr << "wellspaced: can't write " << i.output_path << "\n";
+  return no_file;
+}
+
+}  // namespace wellspaced
