@@ -81,7 +81,7 @@ class WorkerPool::Run final : public Control {
   // For the tending thread only.
   Progress latest;
   bool event_due = false, heartbeat_due = false;
-  Clock::time_point last_event = {}, last_heartbeat = Clock::now();
+  Clock::time_point next_event = Clock::time_point::min(), last_heartbeat = Clock::now();
 
  private:
   void on_progress(const Progress& progress) override {
@@ -362,9 +362,9 @@ void WorkerPool::tend_run(Run& run) {
     if (!answer.still_ours) return run.stop_because(Run::Reason::lost);
     if (answer.cancel) run.stop_because(Run::Reason::dismissed);
   }
-  if (run.event_due && now - run.last_event >= milliseconds(options_.progress_every_ms)) {
+  if (run.event_due && now >= run.next_event) {
     store_.append_event(run.claim, "progress", event_for(run.latest));
-    run.last_event = now;
+    run.next_event = now + milliseconds(options_.progress_every_ms);
     run.event_due = false;
     on_event_();
   }
