@@ -24,7 +24,7 @@ struct JobSpec {
   std::string query;         ///< raw query string of the request
   std::string request;       ///< body bytes
   std::string trace;         ///< traceparent, or empty
-  bool attached = false;     ///< a client is waiting on its connection: not worth a second attempt after a crash
+  bool attached = false;  ///< a client is waiting on its connection: not worth a second attempt after a crash
 };
 
 struct Job {
@@ -35,12 +35,12 @@ struct Job {
   bool attached = false;
   double progress = 0;
   std::string message;
-  int attempt = 0;  ///< number of claims so far
-  std::int64_t queue_position = 0;  ///< 1 = next; 0 unless accepted
+  int attempt = 0;                              ///< number of claims so far
+  std::int64_t queue_position = 0;              ///< 1 = next; 0 unless accepted
   std::int64_t created_ms = 0, updated_ms = 0;  ///< milliseconds since 1970, the store's clock
-  std::optional<std::int64_t> started_ms;  ///< of the latest attempt; none while accepted
+  std::optional<std::int64_t> started_ms;       ///< of the latest attempt; none while accepted
   std::optional<std::int64_t> finished_ms, expires_ms;
-  std::string problem;        ///< problem document (JSON) when failed, else empty
+  std::string problem;  ///< problem document (JSON) when failed, else empty
   std::int64_t result_bytes = 0;
 };
 

@@ -10,12 +10,12 @@
 namespace wellspaced {
 
 struct JobLimits {
-  int queue = 1000;               ///< accepted jobs over all owners; above: Error{overloaded}
-  int live_per_owner = 16;        ///< accepted or running, not attached; above: Error{too_many_jobs}
+  int queue = 1000;         ///< accepted jobs over all owners; above: Error{overloaded}
+  int live_per_owner = 16;  ///< accepted or running, not attached; above: Error{too_many_jobs}
   std::int64_t lease_ms = 30'000;
   std::int64_t keep_result_ms = 24ll * 3600 * 1000;
-  int max_attempts = 3;           ///< then failed with worker_crashed
-  int events_per_job = 256;       ///< the oldest are dropped first
+  int max_attempts = 3;      ///< then failed with worker_crashed
+  int events_per_job = 256;  ///< the oldest are dropped first
 };
 
 struct JobFilter {
@@ -43,10 +43,13 @@ enum class CancelOutcome { requested, already_over, unknown };
 ///
 /// Guarantees
 /// 1. `submit` returns after the job is on disk: nothing acknowledged is lost by a crash at any time.
-/// 2. A job's result is written once: complete, fail, release and heartbeat count only while (id, attempt) holds the job.
+/// 2. A job's result is written once: complete, fail, release and heartbeat count only while (id, attempt)
+/// holds the job.
 /// 3. Only the store's clock decides about leases and expiry.
-/// 4. An accepted job whose cancel is requested becomes dismissed at once; a running one when its worker says so.
-/// 5. Every change of status appends an event "status", the last one also "done", with {"id","status","progress","attempt"}.
+/// 4. An accepted job whose cancel is requested becomes dismissed at once; a running one when its worker says
+/// so.
+/// 5. Every change of status appends an event "status", the last one also "done", with
+/// {"id","status","progress","attempt"}.
 /// 6. Ids ascend in the order of submission; each claim of a job has a greater attempt than the one before.
 ///
 /// Errors of every call: storage_unavailable, storage_full. Thread safety: all calls from any thread.
@@ -57,16 +60,17 @@ class JobStore {
   /// Errors: overloaded, too_many_jobs.
   virtual Job submit(const JobSpec& spec) = 0;
 
-  /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of attempts become
-  /// failed (worker_crashed), attached ones whose lease ran out become dismissed.
+  /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of
+  /// attempts become failed (worker_crashed), attached ones whose lease ran out become dismissed.
   virtual std::optional<Claim> claim(const std::string& worker) = 0;
   virtual Heartbeat heartbeat(const Claim& claim, double progress, const std::string& message) = 0;
-  /// Each returns false, and changes nothing, if the claim no longer holds the job. A job whose cancel is requested may
-  /// still be completed or failed: what reaches the store first counts.
+  /// Each returns false, and changes nothing, if the claim no longer holds the job. A job whose cancel is
+  /// requested may still be completed or failed: what reaches the store first counts.
   virtual bool complete(const Claim& claim, const std::string& result) = 0;
   virtual bool fail(const Claim& claim, const std::string& problem_json) = 0;
   virtual bool dismiss(const Claim& claim) = 0;  ///< the worker has stopped a cancelled job
-  /// Back to the queue at its old place, not counted as a crash (shutdown). A cancelled or attached job becomes dismissed.
+  /// Back to the queue at its old place, not counted as a crash (shutdown). A cancelled or attached job
+  /// becomes dismissed.
   virtual bool release(const Claim& claim) = 0;
 
   virtual std::optional<Job> find(const std::string& id) = 0;
@@ -76,14 +80,16 @@ class JobStore {
   /// Deletes a finished job with its result. False if there is none such or it is live.
   virtual bool purge(const std::string& id) = 0;
 
-  /// The result's bytes. Errors: no_such_job, result_not_ready, result_expired, conflict (failed or dismissed).
+  /// The result's bytes. Errors: no_such_job, result_not_ready, result_expired, conflict (failed or
+  /// dismissed).
   virtual std::string result(const std::string& id) = 0;
 
   /// Appends an event (attempt-fenced); false if the claim no longer holds the job.
   virtual bool append_event(const Claim& claim, const std::string& type, const std::string& json) = 0;
   virtual std::vector<JobEvent> events_after(const std::string& id, std::int64_t sequence) = 0;
 
-  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows. Number of rows touched.
+  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows. Number
+  /// of rows touched.
   virtual int expire() = 0;
   virtual JobCounts counts() = 0;
   /// Throws if the store can't be used (readyz).

@@ -85,7 +85,7 @@ class SqliteStore final : public JobStore {
   auto write(Body body) {
     const std::lock_guard guard(writer_mutex_);
     Transaction transaction(writer_, Transaction::Kind::write);
-    const auto answer = body(now(writer_));
+    auto answer = body(now(writer_));
     transaction.commit();
     return answer;
   }
