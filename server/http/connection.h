@@ -60,7 +60,8 @@ struct Connection {
   Clock::time_point deadline;
   std::size_t progress_mark = 0;  ///< bytes moved when `deadline` was last put off
   bool readable = false;
-  bool queued = false;  ///< in the hub's list of connections to look at
+  bool surplus = false;  ///< above the connection limit: it only gets told so
+  bool queued = false;   ///< in the hub's list of connections to look at
   /// @}
 
   std::size_t unsent() const { return out_head.size() + out_body.size() - sent; }

@@ -21,7 +21,7 @@ constexpr milliseconds kTick{200};
 // A burst of wake() must not make the hub poll 1500 sources once for each.
 constexpr milliseconds kPollGap{5};
 // Connections above the limit that are still told 503; beyond them, there is only a close.
-constexpr std::size_t kRefusalRoom = 512;
+constexpr std::size_t kSurplusLimit = 512;
 // Before those who are connected get their turn.
 constexpr int kAcceptsPerTurn = 256;
 
@@ -185,8 +185,8 @@ void Hub::accept_all() {
 }
 
 void Hub::adopt(Descriptor socket) {
-  if (connections_.size() >= options_.connection_limit + kRefusalRoom) return;
-  const bool full = connections_.size() >= options_.connection_limit;
+  if (surplus_ >= kSurplusLimit) return;
+  const bool full = connections_.size() - surplus_ >= options_.connection_limit;
   const int yes = 1;
   setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   auto owned = std::make_unique<Connection>(std::move(socket));
@@ -198,6 +198,8 @@ void Hub::adopt(Descriptor socket) {
   if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, connection.socket.get(), &event) != 0) return;
   connections_.emplace(&connection, std::move(owned));
   if (!full) return;
+  connection.surplus = true;
+  ++surplus_;
   refuse(connection, http_problem(503, "all " + std::to_string(options_.connection_limit) +
                                            " connections are taken; try again in a moment"));
   enqueue(connection);

@@ -83,6 +83,7 @@ class Hub {
       graveyard_;  ///< closed in this round; events may still point to them
   std::vector<Connection*> queue_;
   Clock::time_point now_, next_tick_, last_poll_, drain_deadline_;
+  std::size_t surplus_ = 0;  ///< of connections_, those above the limit; they must not keep others out
   bool draining_ = false, accept_paused_ = false, poll_wanted_ = false;
 
   std::atomic<bool> stop_requested_ = false, wake_requested_ = false, rung_ = false;

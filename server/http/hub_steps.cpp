@@ -219,6 +219,7 @@ void Hub::close(Connection& connection) {
   if (connection.exchange.status != 0) report(connection);
   const auto found = connections_.find(&connection);
   if (found == connections_.end()) return;
+  if (connection.surplus) --surplus_;
   std::erase(queue_, &connection);
   connection.state = State::closed;
   connection.events.reset();
