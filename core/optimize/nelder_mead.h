@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -23,8 +22,13 @@ template <class Cost>
 Trial nelder_mead(const Cost& cost, double size, int steps) {
   const auto tried = [&](Vec2 at) { return Trial{at, cost(at)}; };
   std::array<Trial, 3> simplex = {tried({0, 0}), tried({size, 0}), tried({0, size})};
-  const auto by_cost = [](const Trial& a, const Trial& b) { return a.cost < b.cost; };
-  std::stable_sort(simplex.begin(), simplex.end(), by_cost);
+  const auto sort = [&simplex] {  // stable, by cost
+    auto& [a, b, c] = simplex;
+    if (b.cost < a.cost) std::swap(a, b);
+    if (c.cost < b.cost) std::swap(b, c);
+    if (b.cost < a.cost) std::swap(a, b);
+  };
+  sort();
   for (int step = 0; step < steps; ++step) {
     auto& [best, middle, worst] = simplex;
     const Vec2 center = 0.5 * (best.at + middle.at);
@@ -44,7 +48,7 @@ Trial nelder_mead(const Cost& cost, double size, int steps) {
         worst = tried(0.5 * (best.at + worst.at));
       }
     }
-    std::stable_sort(simplex.begin(), simplex.end(), by_cost);
+    sort();
   }
   return simplex[0];
 }

@@ -29,23 +29,23 @@ void Cell::clip(const HalfPlane& h, std::int32_t label) {
   }
   if (!cuts) return;
 
-  scratch_.clear();
+  scratch_.resize(2 * m);  // one more than m would do, if rounding never made a cell concave
+  Corner* out = scratch_.data();
   for (std::size_t k = 0; k < m; ++k) {
     const std::size_t next = k + 1 == m ? 0 : k + 1;
     const bool here = side_[k] <= 0, there = side_[next] <= 0;
     const Corner& a = corners_[k];
-    if (here && (there || side_[k] < 0)) scratch_.push_back(a);
+    if (here && (there || side_[k] < 0)) *out++ = a;
     if (here == there) continue;
     if (here && side_[k] == 0) {  // leaves exactly at a corner: the new edge starts there
-      scratch_.push_back({a.at, label});
+      *out++ = {a.at, label};
       continue;
     }
-    const bool enters_at_corner = there && side_[next] == 0;
-    if (enters_at_corner) continue;  // the corner itself, pushed in its turn, closes the new edge
+    if (there && side_[next] == 0) continue;  // enters at a corner, which closes the new edge in its turn
     const double t = side_[k] / (side_[k] - side_[next]);
-    const Vec2 at = a.at + t * (corners_[next].at - a.at);
-    scratch_.push_back({at, here ? label : a.label});
+    *out++ = {a.at + t * (corners_[next].at - a.at), here ? label : a.label};
   }
+  scratch_.resize(static_cast<std::size_t>(out - scratch_.data()));
   corners_.swap(scratch_);
   outradius2_ = 0;
   for (const Corner& corner : corners_) outradius2_ = std::max(outradius2_, norm2(corner.at));

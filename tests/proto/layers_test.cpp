@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = WELLSPACED_SOURCE_DIR;
+
+/// Which folder may include what starts with this text.
+struct Rule {
+  std::string include;
+  std::vector<std::string> allowed;
+};
+
+const std::vector<Rule> rules = {
+    {"\"proto/", {"proto/", "server/"}},
+    {"\"server/", {"server/"}},
+    {"<CGAL/", {"core/voronoi/delaunay.cpp"}},
+    {"<httplib", {"server/http/"}},
+    {"<nlohmann/", {"proto/", "server/"}},
+    {"<spdlog/", {"server/log.cpp"}},
+    {"<sqlite3", {"server/jobs/"}},
+    {"<CLI/", {"server/config.cpp"}},
+};
+
+std::vector<std::string> sources() {
+  std::vector<std::string> found;
+  for (const char* layer : {"core", "proto", "server"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / layer))
+      if (entry.is_regular_file()) found.push_back(fs::relative(entry.path(), root).string());
+  return found;
+}
+
+TEST(Layers, IncludeOnlyWhatIsBelowThem) {
+  const std::vector<std::string> files = sources();
+  ASSERT_GT(files.size(), 50u);
+  for (const std::string& file : files) {
+    std::ifstream stream(root / file);
+    for (std::string line; std::getline(stream, line);)
+      for (const Rule& rule : rules) {
+        if (!line.starts_with("#include " + rule.include)) continue;
+        bool allowed = false;
+        for (const std::string& prefix : rule.allowed) allowed = allowed || file.starts_with(prefix);
+        EXPECT_TRUE(allowed) << file << ": " << line;
+      }
+  }
+}
+
+TEST(Layers, KeepTheCoreQuiet) {
+  for (const std::string& file : sources()) {
+    if (!file.starts_with("core/")) continue;
+    std::ifstream stream(root / file);
+    for (std::string line; std::getline(stream, line);)
+      for (const char* word : {"<iostream>", "std::cout", "std::cerr", "printf(", "std::random_device", "std::mt19937", "using namespace std"})
+        EXPECT_EQ(line.find(word), std::string::npos) << file << ": " << line;
+  }
+}
+
+}  // namespace
