@@ -75,6 +75,7 @@ void reset_exchange(Connection& connection) {
   connection.head = {};
   connection.request = {};
   connection.exchange = {};
+  connection.started = {};
   connection.out_head.clear();
   connection.out_body = {};
   connection.sent = 0;

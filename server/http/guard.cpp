@@ -64,7 +64,8 @@ class Guard::Impl {
       : options_(std::move(options)),
         handler_(std::move(handler)),
         on_exchange_(std::move(on_exchange)),
-        hub_(options_, {[this](Connection& connection) { requests_.push(connection); }, on_exchange_}) {}
+        hub_(options_,
+             {[this](Connection& connection) { queue_for(connection).push(connection); }, on_exchange_}) {}
 
   void listen() {
     listener_ = open_listener(options_.host, options_.port);
@@ -76,9 +77,12 @@ class Guard::Impl {
   void serve() {
     if (!listener_ || hub_.stopping()) return listener_.reset();
     std::vector<std::thread> workers;
-    for (unsigned i = 0; i < std::max(1u, options_.threads); ++i) workers.emplace_back([this] { work(); });
+    for (unsigned i = 0; i < std::max(1u, options_.threads); ++i)
+      workers.emplace_back([this] { work(requests_); });
+    if (!options_.reserved_paths.empty()) workers.emplace_back([this] { work(reserved_); });
     hub_.run(std::move(listener_));
     requests_.close();
+    reserved_.close();
     for (std::thread& worker : workers) worker.join();
   }
 
@@ -86,9 +90,15 @@ class Guard::Impl {
   void wake() { hub_.wake(); }
 
  private:
-  void work() {
+  RequestQueue& queue_for(const Connection& connection) {
+    const std::vector<std::string>& paths = options_.reserved_paths;
+    const bool reserved = std::find(paths.begin(), paths.end(), connection.request.path) != paths.end();
+    return reserved ? reserved_ : requests_;
+  }
+
+  void work(RequestQueue& requests) {
     Engine engine;
-    while (Connection* connection = requests_.pop()) {
+    while (Connection* connection = requests.pop()) {
       answer(engine, *connection);
       hub_.give_back(*connection);
     }
@@ -154,7 +164,7 @@ class Guard::Impl {
   GuardOptions options_;
   Handler handler_;
   std::function<void(const Exchange&)> on_exchange_;
-  RequestQueue requests_;
+  RequestQueue requests_, reserved_;
   Descriptor listener_;
   int port_ = 0;
   Hub hub_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "server/http/message.h"
 
@@ -12,6 +13,8 @@ struct GuardOptions {
   std::string host = "127.0.0.1";
   int port = 8080;  ///< 0: any free port, see Guard::port
   unsigned threads = 16;
+  /// Quick ones (health, metrics). With a thread of their own they are answered when all others are busy.
+  std::vector<std::string> reserved_paths;
   std::size_t body_limit_bytes = 256u << 20;
   std::size_t header_limit_bytes = 16u << 10;
   std::size_t header_limit_lines = 64;

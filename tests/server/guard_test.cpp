@@ -307,6 +307,27 @@ TEST(Guard, IdleConnectionsNeedNoThread) {
   for (const auto& client : clients) ASSERT_EQ(client->get("/again").body, "GET /again ");
 }
 
+TEST(Guard, ReservedPathsAreAnsweredWhenEveryThreadIsBusy) {
+  std::latch entered(2), leave(1);
+  GuardOptions options;
+  options.threads = 2;
+  options.reserved_paths = {"/livez"};
+  Served server(options, [&](const Request& request) {
+    if (request.path == "/livez") return echo(request);
+    entered.count_down();
+    leave.wait();
+    return Response{};
+  });
+  RawClient first(server.port()), second(server.port());
+  first.say(get("/"));
+  second.say(get("/"));
+  entered.wait();
+  EXPECT_EQ(RawClient(server.port()).get("/livez?verbose").status, 200);
+  leave.count_down();
+  EXPECT_EQ(first.response().status, 200);
+  EXPECT_EQ(second.response().status, 200);
+}
+
 TEST(Guard, SlowReadersKeepNoThreadBusy) {
   GuardOptions options;
   options.threads = 1;
