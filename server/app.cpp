@@ -20,7 +20,9 @@ void log_exchange(const http::Exchange& e) {
                                    {"status", e.status},       {"seconds", e.seconds}, {"bytes_in", e.bytes_in},
                                    {"bytes_out", e.bytes_out}};
   if (!e.trace_parent.empty()) fields["traceparent"] = e.trace_parent;
-  log_info("request", std::move(fields));
+  if (e.failure.empty()) return log_info("request", std::move(fields));
+  fields["failure"] = e.failure;
+  log_error("request", std::move(fields));
 }
 
 /// A folder that can't be made is the store's error to report.
@@ -39,16 +41,22 @@ WorkerPoolOptions pool_options(const Config& config) {
   return options;
 }
 
+/// These are answered however busy everything else is.
+Config with_reserved_paths(Config config) {
+  config.http.reserved_paths = {"/livez", "/readyz", "/version", "/metrics"};
+  return config;
+}
+
 }  // namespace
 
 class App::Impl {
  public:
   explicit Impl(Config config)
-      : config_(std::move(config)),
+      : config_(with_reserved_paths(std::move(config))),
         store_(open_store(config_)),
         context_{config_, *store_, metrics_},
         router_(routes(context_)),
-        guard_(config_.http, [this](const http::Request& request) { return answer(request); },
+        guard_(config_.http, [this](const http::Request& request) { return router_(request); },
                [this](const http::Exchange& exchange) {
                  metrics_.count_exchange(exchange);
                  log_exchange(exchange);
@@ -91,18 +99,6 @@ class App::Impl {
   }
 
  private:
-  http::Response answer(const http::Request& request) {
-    try {
-      return router_(request);
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::internal) log_error("internal error", {{"request_id", request.id}, {"what", error.what()}});
-      throw;
-    } catch (const std::exception& error) {
-      log_error("internal error", {{"request_id", request.id}, {"what", error.what()}});
-      throw;
-    }
-  }
-
   std::string run(const Claim& claim, Control& control) {
     try {
       return run_job(context_, claim, control);

@@ -1,5 +1,6 @@
 #include "server/log.h"
 
+#include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -20,7 +21,8 @@ std::string line(const std::string& message, const ordered_json& fields) {
 
 void start_log(const std::string& level) {
   spdlog::drop("wellspaced");
-  auto logger = spdlog::stderr_logger_mt("wellspaced");
+  // Asynchronous: the thread that waits for all connections logs, too, and must not wait for a reader of this log.
+  auto logger = spdlog::create_async_nb<spdlog::sinks::stderr_sink_mt>("wellspaced");
   logger->set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v})", spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(level));
   logger->flush_on(spdlog::level::info);
@@ -29,6 +31,6 @@ void start_log(const std::string& level) {
 
 void log_info(const std::string& message, ordered_json fields) { spdlog::info("{}", line(message, fields)); }
 void log_error(const std::string& message, ordered_json fields) { spdlog::error("{}", line(message, fields)); }
-void flush_log() { spdlog::default_logger()->flush(); }
+void flush_log() { spdlog::shutdown(); }
 
 }  // namespace wellspaced

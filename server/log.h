@@ -12,7 +12,7 @@ void start_log(const std::string& level);
 void log_info(const std::string& message, nlohmann::ordered_json fields = {});
 void log_error(const std::string& message, nlohmann::ordered_json fields = {});
 
-/// Writes out what is buffered.
+/// Writes out what is buffered and ends the log; for the end of the process.
 void flush_log();
 
 }  // namespace wellspaced

@@ -114,7 +114,6 @@ class Guard::Impl {
       return;
     }
     if (response.route.empty()) response.route = std::move(connection.pending_route);
-    request.client_is_gone = [fd = connection.socket.get()] { return peer_closed(fd); };
     connection.close_after = !connection.head.keep_alive || hub_.stopping();
     connection.out_head = engine.exchange(request.method + ' ' + request.target + " HTTP/1.1", [&] {
       // The end of an event stream is the end of its connection.
@@ -155,8 +154,13 @@ class Guard::Impl {
       const std::unique_ptr<Pending> pending = std::move(connection.pending);
       return pending ? pending->finish() : handler_(request);
     } catch (const Error& error) {
+      if (error.code() == ErrorCode::internal) connection.exchange.failure = error.what();
       return to_response(to_problem(error), request.id);
+    } catch (const std::exception& error) {
+      connection.exchange.failure = error.what();
+      return to_response(internal_problem(), request.id);
     } catch (...) {
+      connection.exchange.failure = "an exception of unknown type";
       return to_response(internal_problem(), request.id);
     }
   }

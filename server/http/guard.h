@@ -30,7 +30,8 @@ struct GuardOptions {
 /// What one finished exchange was, for logs and metrics.
 struct Exchange {
   std::string id, method, route, target, trace_parent;
-  int status = 0;
+  std::string failure;  ///< what() of the exception behind a 500, for the log only
+  int status = 0;       ///< 499: the client closed before its response was known
   double seconds = 0;
   std::size_t bytes_in = 0, bytes_out = 0;
 };

@@ -30,7 +30,6 @@ struct Request {
   Headers headers;
   std::string body;
   std::string id;                        ///< request id: the client's X-Request-Id if sane, else our own
-  std::function<bool()> client_is_gone;  ///< polls the socket; true once the peer has closed it
 
   /// First value of a header, or empty.
   std::string_view header(std::string_view name) const;
