@@ -32,6 +32,15 @@ std::unique_ptr<JobStore> open_store(const Config& config) {
   return open_sqlite_store(config.store, config.jobs);
 }
 
+void log_job(const JobFinished& finished) {
+  nlohmann::ordered_json fields = {{"job", finished.id},
+                                   {"operation", finished.operation},
+                                   {"status", to_string(finished.status)},
+                                   {"seconds", finished.seconds}};
+  if (!finished.trace.empty()) fields["traceparent"] = finished.trace;
+  log_info("job", std::move(fields));
+}
+
 WorkerPoolOptions pool_options(const Config& config) {
   WorkerPoolOptions options;
   options.workers = config.workers;
@@ -66,7 +75,7 @@ class App::Impl {
         *store_, pool_options(config_), [this](const Claim& claim, Control& control) { return run(claim, control); },
         [this](const JobFinished& finished) {
           metrics_.count_finished(finished);
-          log_info("job", {{"operation", finished.operation}, {"status", to_string(finished.status)}, {"seconds", finished.seconds}});
+          log_job(finished);
         },
         [this] {
           ++context_.changes;

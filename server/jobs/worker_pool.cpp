@@ -251,7 +251,8 @@ void WorkerPool::execute(const RunPointer& run) {
   Outcome outcome = compute(*run);
   if (write_ending(*run, outcome) && is_terminal(outcome.status)) {
     const std::chrono::duration<double> time = Clock::now() - started;
-    on_finished_({run->claim.spec.operation, outcome.status, time.count()});
+    const Claim& claim = run->claim;
+    on_finished_({claim.id, claim.spec.operation, claim.spec.trace, outcome.status, time.count()});
   }
   finish(run);
   on_event_();

@@ -19,9 +19,9 @@ namespace wellspaced {
 /// logged.
 using JobRunner = std::function<std::string(const Claim&, Control&)>;
 
-/// A run that ended, for metrics.
+/// A run that ended, for metrics and logs.
 struct JobFinished {
-  std::string operation;
+  std::string id, operation, trace;
   JobStatus status = JobStatus::successful;
   double seconds = 0;
 };
