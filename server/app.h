@@ -11,7 +11,7 @@ namespace wellspaced {
 /// Thread safety: `stop` from any thread, any number of times; the rest from one.
 class App {
  public:
-  /// Requires: complete(config). Errors: storage_unavailable; internal if the address can't be had.
+  /// Requires: complete(config), require_store(config). Errors: storage_unavailable; internal if the address can't be had.
   explicit App(Config config);
   ~App();
 

@@ -1,12 +1,13 @@
 #include "server/config.h"
 
-#include <CLI/CLI.hpp>
-#include <arpa/inet.h>
-
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <thread>
+
+#include <CLI/CLI.hpp>
+#include <arpa/inet.h>
 
 #include "core/error.h"
 #include "proto/result.h"
@@ -16,41 +17,63 @@ namespace {
 
 std::string environment_name(std::string_view flag) {
   std::string name = "WELLSPACED_";
-  for (const char c : flag.substr(2)) name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const char c : flag.substr(2))
+    name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return name;
 }
 
 /// One setting: flag, environment variable and file key of the same name.
 template <class T>
 CLI::Option* setting(CLI::App& app, const char* flag, T& value, const std::string& help) {
-  return app.add_option(flag, value, help)->envname(environment_name(flag))->capture_default_str()->group("Settings");
+  return app.add_option(flag, value, help)
+      ->envname(environment_name(flag))
+      ->capture_default_str()
+      ->group("Settings");
 }
+
+/// Which any range of CLI11 takes in.
+const CLI::Validator not_nan(
+    [](std::string& text) {
+      return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number: " + text : "";
+    },
+    "");
 
 void add_settings(CLI::App& app, Config& c) {
   const CLI::Range at_least_one(1.0, 1e18);
   setting(app, "--listen", c.listen, "address to serve on, host:port; port 0 takes a free one");
-  setting(app, "--store", c.store, "SQLite file for jobs (default: wellspaced/jobs.db in $XDG_STATE_HOME or ~/.local/state)");
-  app.add_flag("--allow-public", c.allow_public, "serve on other than loopback addresses, to anyone who reaches them")
+  setting(app, "--store", c.store,
+          "SQLite file for jobs (default: wellspaced/jobs.db in $XDG_STATE_HOME or ~/.local/state)");
+  app.add_flag("--allow-public", c.allow_public,
+               "serve on other than loopback addresses, to anyone who reaches them")
       ->envname("WELLSPACED_ALLOW_PUBLIC")
       ->group("Settings");
   setting(app, "--workers", c.workers, "jobs computed at a time; 0: as many as cores");
   setting(app, "--threads", c.threads, "threads a job; 0: as many as cores; never changes a result");
   setting(app, "--log-level", c.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
-  setting(app, "--drain-seconds", c.drain_seconds, "how long a stopping server still answers new requests, with 503")
-      ->check(CLI::Range(0.0, 20.0));
+  setting(app, "--drain-seconds", c.drain_seconds,
+          "how long a stopping server still answers new requests, with 503")
+      ->check(CLI::Validator(CLI::Range(0.0, 20.0)) & not_nan);
   setting(app, "--http-threads", c.http.threads, "threads that answer requests")->check(CLI::Range(1, 1024));
   setting(app, "--connection-limit", c.http.connection_limit, "open connections")->check(at_least_one);
   setting(app, "--body-limit-bytes", c.limits.body_bytes, "largest request body")->check(at_least_one);
-  setting(app, "--generate-limit", c.limits.generate_points, "most points that generate makes")->check(at_least_one);
-  setting(app, "--optimize-limit", c.limits.optimize_points, "most points that optimize takes")->check(at_least_one);
-  setting(app, "--analyze-limit", c.limits.analyze_points, "most points that analyze takes")->check(at_least_one);
+  setting(app, "--generate-limit", c.limits.generate_points, "most points that generate makes")
+      ->check(at_least_one);
+  setting(app, "--optimize-limit", c.limits.optimize_points, "most points that optimize takes")
+      ->check(at_least_one);
+  setting(app, "--analyze-limit", c.limits.analyze_points, "most points that analyze takes")
+      ->check(at_least_one);
   setting(app, "--picture-limit", c.limits.picture_points, "most points in a picture")->check(at_least_one);
-  setting(app, "--sync-seconds", c.limits.sync_seconds, "longest estimated work without Prefer: respond-async");
-  setting(app, "--memory-limit-bytes", c.limits.memory_bytes, "largest estimated memory a job")->check(at_least_one);
+  setting(app, "--sync-seconds", c.limits.sync_seconds,
+          "longest estimated work without Prefer: respond-async")
+      ->check(CLI::Validator(CLI::Range(0.0, 1e9)) & not_nan);
+  setting(app, "--memory-limit-bytes", c.limits.memory_bytes, "largest estimated memory a job")
+      ->check(at_least_one);
   setting(app, "--queue-limit", c.jobs.queue, "jobs waiting")->check(at_least_one);
-  setting(app, "--live-jobs-limit", c.jobs.live_per_owner, "asynchronous jobs waiting or running an owner")->check(at_least_one);
-  setting(app, "--lease-ms", c.jobs.lease_ms, "how long a job stays with a silent worker")->check(CLI::Range(1000.0, 3.6e6));
+  setting(app, "--live-jobs-limit", c.jobs.live_per_owner, "asynchronous jobs waiting or running an owner")
+      ->check(at_least_one);
+  setting(app, "--lease-ms", c.jobs.lease_ms, "how long a job stays with a silent worker")
+      ->check(CLI::Range(1000.0, 3.6e6));
   setting(app, "--keep-result-ms", c.jobs.keep_result_ms, "how long results are kept")->check(at_least_one);
   setting(app, "--job-limit-seconds", c.job_limit_seconds, "longest run of a job")->check(at_least_one);
 }
@@ -60,8 +83,11 @@ void add_run(CLI::App& app, Invocation& i) {
   run->add_option("operation", i.operation, "generate, optimize or analyze")
       ->required()
       ->check(CLI::IsMember({"generate", "optimize", "analyze"}));
-  run->add_option("request", i.request_path, "file with the request's body; - reads standard input")->required();
-  run->add_option("-o,--output", i.output_path, "file for the result; its ending chooses the format; - writes standard output")->required();
+  run->add_option("request", i.request_path, "file with the request's body; - reads standard input")
+      ->required();
+  run->add_option("-o,--output", i.output_path,
+                  "file for the result; its ending chooses the format; - writes standard output")
+      ->required();
   run->add_option("--format", i.format, "json, npy, csv or svg, when the ending doesn't say");
   run->add_option("--picture", i.picture, "voronoi, delaunay or points, for svg");
   run->add_option("--content-type", i.content_type, "of the request, when the file's ending doesn't say");
@@ -81,37 +107,48 @@ void split_address(Config& config) {
   int port = -1;
   if (colon != std::string::npos) {
     const std::string digits = config.listen.substr(colon + 1);
-    const bool number = !digits.empty() && digits.size() <= 5 && digits.find_first_not_of("0123456789") == std::string::npos;
+    const bool number =
+        !digits.empty() && digits.size() <= 5 && digits.find_first_not_of("0123456789") == std::string::npos;
     port = number ? std::stoi(digits) : -1;
   }
   if (port < 0 || port > 65535)
-    throw Error(ErrorCode::invalid_parameters, "--listen takes host:port, such as 127.0.0.1:8080 or [::1]:8080, not '" + config.listen + "'");
+    throw Error(
+        ErrorCode::invalid_parameters,
+        "--listen takes host:port, such as 127.0.0.1:8080 or [::1]:8080, not '" + config.listen + "'");
   std::string host = config.listen.substr(0, colon);
   if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
   config.http.host = host.empty() ? "0.0.0.0" : host;
   config.http.port = port;
 }
 
-std::string default_store() {
+}  // namespace
+
+void require_store(Config& config) {
+  if (!config.store.empty()) return;
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
-  if (state != nullptr && *state != '\0') return std::string(state) + "/wellspaced/jobs.db";
-  if (home != nullptr && *home != '\0') return std::string(home) + "/.local/state/wellspaced/jobs.db";
-  throw Error(ErrorCode::invalid_parameters, "neither XDG_STATE_HOME nor HOME is set: say with --store where jobs are kept");
+  if (state != nullptr && *state != '\0') {
+    config.store = std::string(state) + "/wellspaced/jobs.db";
+  } else if (home != nullptr && *home != '\0') {
+    config.store = std::string(home) + "/.local/state/wellspaced/jobs.db";
+  } else {
+    throw Error(ErrorCode::invalid_parameters,
+                "neither XDG_STATE_HOME nor HOME is set: say with --store where jobs are kept");
+  }
 }
-
-}  // namespace
 
 Invocation read_invocation(int argc, const char* const* argv) {
   Invocation i;
   CLI::App app("Well-spaced blue-noise point sets: generates, optimizes and analyzes them.", "wellspaced");
-  app.set_config("--config", "", "TOML file with settings, their flags' names as keys")->envname("WELLSPACED_CONFIG");
+  app.set_config("--config", "", "TOML file with settings, their flags' names as keys")
+      ->envname("WELLSPACED_CONFIG");
   app.allow_config_extras(CLI::config_extras_mode::error);
   add_settings(app, i.config);
   bool check = false, openapi = false, health = false, version_wanted = false;
   app.add_flag("--check-config", check, "check the settings and exit")->configurable(false);
   app.add_flag("--print-openapi", openapi, "print the API's description and exit")->configurable(false);
-  app.add_flag("--healthcheck", health, "ask the server at --listen whether it is ready; exit 0 if so")->configurable(false);
+  app.add_flag("--healthcheck", health, "ask the server at --listen whether it is ready; exit 0 if so")
+      ->configurable(false);
   app.add_flag("--version", version_wanted, "print the version and exit")->configurable(false);
   auto* serve = app.add_subcommand("serve", "answer HTTP requests and work on jobs");
   serve->fallthrough();
@@ -140,9 +177,9 @@ void complete(Config& config) {
   split_address(config);
   if (!is_loopback(config.http.host) && !config.allow_public)
     throw Error(ErrorCode::invalid_parameters,
-                "--listen " + config.listen + " is not a loopback address and there are no keys: anyone could use this "
-                "service; say --allow-public if that is meant");
-  if (config.store.empty()) config.store = default_store();
+                "--listen " + config.listen +
+                    " is not a loopback address and there are no keys: anyone could use this "
+                    "service; say --allow-public if that is meant");
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   if (config.workers == 0) config.workers = cores;
   if (config.threads == 0) config.threads = cores;

@@ -41,7 +41,11 @@ struct Invocation {
 /// Reads arguments, environment and configuration file. Prints help and usage errors itself.
 Invocation read_invocation(int argc, const char* const* argv);
 
-/// Fills in what has no constant default, and checks what belongs together.
+/// Gives `store` its default. Errors: invalid_parameters naming --store, when the environment tells no place for it.
+/// Apart from `complete`, because only a server has a store.
+void require_store(Config& config);
+
+/// Fills in what else has no constant default, and checks what belongs together.
 /// Errors: invalid_parameters naming the flag: an address that can't be read, a public address without --allow-public.
 void complete(Config& config);
 

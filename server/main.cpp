@@ -52,6 +52,7 @@ int run(Invocation& invocation) {
       return 0;
     case Command::check_config:
       complete(invocation.config);
+      require_store(invocation.config);
       std::cout << "the settings are valid\n";
       return 0;
     case Command::healthcheck:
@@ -64,6 +65,7 @@ int run(Invocation& invocation) {
       return run_command(invocation);
     case Command::serve:
       complete(invocation.config);
+      require_store(invocation.config);
       return serve(std::move(invocation.config));
   }
   return 2;

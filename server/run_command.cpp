@@ -1,5 +1,6 @@
 #include "server/run_command.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -24,7 +25,8 @@ std::string content_type_of(const Invocation& i) {
 
 Format output_format(const Invocation& i) {
   std::string name = i.format;
-  if (name.empty() && i.output_path.find('.') != std::string::npos) name = i.output_path.substr(i.output_path.rfind('.') + 1);
+  if (name.empty() && i.output_path != "-") name = std::filesystem::path(i.output_path).extension().string();
+  if (name.starts_with('.')) name.erase(0, 1);
   return negotiate(name, "", formats_of(i.operation));
 }
 
@@ -44,13 +46,16 @@ bool read_file(const std::string& path, std::string& bytes) {
     bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
     return true;
   }
+  if (std::filesystem::is_directory(path)) return false;  // which opens, but throws when read
   std::ifstream file(path, std::ios::binary);
   bytes.assign(std::istreambuf_iterator<char>(file), {});
   return file.is_open() && !file.bad();
 }
 
 bool write_file(const std::string& path, const std::string& bytes) {
-  if (path == "-") return static_cast<bool>(std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush());
+  if (path == "-")
+    return static_cast<bool>(
+        std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush());
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
@@ -63,7 +68,8 @@ std::string encoded_result(const Invocation& i, const std::string& body) {
   if (!i.picture.empty()) require_picture(i.picture, "--picture");
   const std::string content_type = content_type_of(i);
   const JobPoints no_jobs = [](const std::string&) -> PointSet {
-    throw Error(ErrorCode::no_such_job, "wellspaced run knows no jobs; save the job's points and give them as npy or csv");
+    throw Error(ErrorCode::no_such_job,
+                "wellspaced run knows no jobs; save the job's points and give them as npy or csv");
   };
   const Request request = read_request({i.operation, content_type, body, query}, i.config.limits, no_jobs);
   Control control(i.config.threads);

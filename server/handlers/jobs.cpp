@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "proto/fields.h"
 #include "proto/result.h"
 #include "server/handlers/answer.h"
 #include "server/handlers/waiting.h"
@@ -33,7 +34,7 @@ JobFilter read_filter(const http::Request& request) {
       if (end.ec != std::errc() || end.ptr != value.data() + value.size() || filter.limit < 1 || filter.limit > most_jobs_a_page)
         throw Error(ErrorCode::invalid_parameters, "limit must be a whole number from 1 to 500", "/limit");
     } else {
-      throw Error(ErrorCode::invalid_parameters, "unknown parameter; known here are: status, operation, limit, cursor", "/query");
+      throw Error(ErrorCode::invalid_parameters, "unknown parameter; known here are: status, operation, limit, cursor", pointer_token(name));
     }
   }
   return filter;

@@ -32,10 +32,22 @@ void require_sync(const Request& request, const Limits& limits) {
   throw Error(ErrorCode::too_large_for_sync,
               "this may take about " + std::to_string(static_cast<int>(seconds)) + " s, more than the " +
                   std::to_string(static_cast<int>(limits.sync_seconds)) +
-                  " s that a synchronous answer may; send the header Prefer: respond-async and fetch the result later");
+                  " s that a synchronous answer may; send the header Prefer: respond-async and fetch the "
+                  "result later");
 }
 
-JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query, bool attached) {
+/// Before the work; what is drawn in the end is checked again.
+void require_drawable(const Request& request, const Wanted& wanted, const Limits& limits) {
+  const double points = expected_points(request);
+  if (wanted.format != Format::svg || points <= static_cast<double>(limits.picture_points)) return;
+  throw Error(ErrorCode::too_large,
+              "a picture of about " + std::to_string(static_cast<std::uint64_t>(points)) +
+                  " points is above the limit of " + std::to_string(limits.picture_points) +
+                  "; ask for the points in another format and draw a part of them");
+}
+
+JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query,
+                  bool attached) {
   JobSpec spec;
   spec.operation = operation;
   spec.content_type = request.header("Content-Type");
@@ -49,8 +61,8 @@ JobSpec make_spec(const std::string& operation, const http::Request& request, co
 /// The answer once the job is over, or 202 when the client's patience is.
 class JobAnswer final : public JobWait {
  public:
-  JobAnswer(Context& context, std::string id, std::string request_id, Wanted wanted, std::optional<int> wait_seconds,
-            bool attached)
+  JobAnswer(Context& context, std::string id, std::string request_id, Wanted wanted,
+            std::optional<int> wait_seconds, bool attached)
       : JobWait(context, std::move(id), wait_seconds),
         request_id_(std::move(request_id)),
         wanted_(std::move(wanted)),
@@ -75,15 +87,18 @@ class JobAnswer final : public JobWait {
 
 }  // namespace
 
-http::Response post_operation(Context& context, const std::string& operation, const http::Request& http_request) {
+http::Response post_operation(Context& context, const std::string& operation,
+                              const http::Request& http_request) {
   if (context.draining)
-    throw Error(ErrorCode::draining, "the server is stopping and takes no new work; send the request again in a moment");
+    throw Error(ErrorCode::draining,
+                "the server is stopping and takes no new work; send the request again in a moment");
   try {
     Wanted wanted = read_wanted(http_request, operation);
     const Preference preference = read_preference(http_request);
     const Query query = request_query(http_request);
     const RawRequest raw{operation, http_request.header("Content-Type"), http_request.body, query};
     const Request request = read_request(raw, context.config.limits, points_of_jobs(context));
+    require_drawable(request, wanted, context.config.limits);
     if (!preference.respond_async) require_sync(request, context.config.limits);
 
     const bool attached = !preference.respond_async;
@@ -92,8 +107,9 @@ http::Response post_operation(Context& context, const std::string& operation, co
     context.pool->notify();
     if (preference.respond_async && !preference.wait_seconds) return accepted_response(job);
     http::Response response;
-    response.pending = std::make_unique<JobAnswer>(context, job.id, http_request.id, std::move(wanted),
-                                                   attached ? std::nullopt : preference.wait_seconds, attached);
+    response.pending =
+        std::make_unique<JobAnswer>(context, job.id, http_request.id, std::move(wanted),
+                                    attached ? std::nullopt : preference.wait_seconds, attached);
     return response;
   } catch (const Error& error) {
     context.metrics.count_rejected(to_problem(error).type);

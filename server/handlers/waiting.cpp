@@ -18,7 +18,8 @@ JobWait::JobWait(Context& context, std::string id, std::optional<int> wait_secon
 
 bool JobWait::ready() {
   const auto now = Clock::now();
-  if (deadline_ && now >= *deadline_) return true;
+  // Who said how long to wait can do with less, and a stopping server should not keep them to the end.
+  if (deadline_ && (now >= *deadline_ || context_.draining)) return true;
   const std::uint64_t changes = context_.changes;
   if (seen_ == changes && now < look_again_) return false;
   seen_ = changes;

@@ -13,7 +13,7 @@ namespace wellspaced {
 /// A response that waits for a job to be over, or for a time to pass, without occupying a thread.
 class JobWait : public http::Pending {
  public:
-  /// Without a time, only the job's end counts.
+  /// Without a time, only the job's end counts; with one, the wait also ends when the server begins to stop.
   JobWait(Context& context, std::string id, std::optional<int> wait_seconds);
   bool ready() override;
 

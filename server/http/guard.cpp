@@ -114,6 +114,7 @@ class Guard::Impl {
       return;
     }
     if (response.route.empty()) response.route = std::move(connection.pending_route);
+    if (response.route.empty()) response.route = request.route;
     connection.close_after = !connection.head.keep_alive || hub_.stopping();
     connection.out_head = engine.exchange(request.method + ' ' + request.target + " HTTP/1.1", [&] {
       // The end of an event stream is the end of its connection.

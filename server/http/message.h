@@ -26,6 +26,7 @@ struct Request {
   std::vector<std::string> segments;  ///< of the path, each decoded after splitting on '/'
   /// Of the path pattern: {id}. Mutable because the router, alone, fills it in without copying the request.
   mutable std::vector<std::pair<std::string, std::string>> parameters;
+  mutable std::string route;  ///< pattern that matched, likewise; known even when the handler throws
   std::vector<std::pair<std::string, std::string>> query;  ///< decoded, in order, duplicates kept
   Headers headers;
   std::string body;

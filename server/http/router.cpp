@@ -61,6 +61,7 @@ Response Router::operator()(const Request& request) const {
     const Route& route = routes_[i];
     if (route.method == request.method || (route.method == "GET" && request.method == "HEAD")) {
       request.parameters = bind(patterns_[i], request.segments);
+      request.route = route.pattern;
       Response response = route.handler(request);
       response.route = route.pattern;
       return response;
