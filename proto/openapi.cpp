@@ -33,7 +33,9 @@ constexpr StatusText problem_statuses[] = {
     {413, "payload-too-large"},
     {415, "unsupported-media-type"},
     {416, "range-not-satisfiable"},
-    {422, "invalid-parameters, infeasible, degenerate-input, too-large or too-large-for-sync; `errors` names the field"},
+    {422,
+     "invalid-parameters, infeasible, degenerate-input, too-large or too-large-for-sync; `errors` names the "
+     "field"},
     {429, "too-many-jobs (with Retry-After)"},
     {500, "internal: only the request id is told"},
     {503, "overloaded, draining or storage-unavailable (with Retry-After)"},
@@ -41,7 +43,9 @@ constexpr StatusText problem_statuses[] = {
     {507, "storage-full"},
 };
 
-ordered_json header(const char* description) { return {{"description", description}, {"schema", {{"type", "string"}}}}; }
+ordered_json header(const char* description) {
+  return {{"description", description}, {"schema", {{"type", "string"}}}};
+}
 
 ordered_json parameter(const char* name, const char* in, const char* description, ordered_json schema) {
   ordered_json out = {{"name", name}, {"in", in}, {"description", description}};
@@ -55,7 +59,8 @@ ordered_json format_parameters(std::string_view operation) {
   for (const Format format : formats_of(operation)) names.push_back(name_of(format));
   for (const auto picture : pictures()) picture_names.push_back(picture);
   return {parameter("format", "query", "wins over Accept", {{"type", "string"}, {"enum", names}}),
-          parameter("picture", "query", "what an SVG answer shows", {{"type", "string"}, {"enum", picture_names}})};
+          parameter("picture", "query", "what an SVG answer shows",
+                    {{"type", "string"}, {"enum", picture_names}})};
 }
 
 /// A result in all formats of its operation.
@@ -65,7 +70,7 @@ ordered_json result_content(std::string_view operation, const std::string& schem
     const bool text = format == Format::csv || format == Format::svg;
     ordered_json of = format == Format::json ? schema_reference(schema)
                       : text                 ? ordered_json{{"type", "string"}}
-                                             : ordered_json{{"type", "string"}, {"contentEncoding", "binary"}};
+                             : ordered_json{{"type", "string"}, {"contentEncoding", "binary"}};
     content[std::string(media_type_of(format))] = {{"schema", std::move(of)}};
   }
   return content;
@@ -79,28 +84,37 @@ ordered_json example_of(const std::string& operation) {
 }
 
 ordered_json operation_path(const std::string& name, const std::string& summary) {
-  const std::string camel = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))) + name.substr(1);
-  ordered_json body = {{"application/json", {{"schema", schema_reference(camel + "Request")}, {"example", example_of(name)}}}};
+  const std::string camel =
+      static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))) + name.substr(1);
+  ordered_json body = {
+      {"application/json", {{"schema", schema_reference(camel + "Request")}, {"example", example_of(name)}}}};
   if (name != "generate") {
     body["application/x-npy"] = {{"schema", {{"type", "string"}, {"contentEncoding", "binary"}}}};
     body["text/csv"] = {{"schema", {{"type", "string"}}}};
   }
   ordered_json parameters = format_parameters(name);
-  parameters.push_back(parameter("Prefer", "header", "respond-async: 202 at once; respond-async, wait=5: 200 if done within 5 s, else 202",
-                                 {{"type", "string"}}));
+  parameters.push_back(
+      parameter("Prefer", "header",
+                "respond-async: 202 at once; respond-async, wait=5: 200 if done within 5 s, else 202",
+                {{"type", "string"}}));
   ordered_json responses;
-  responses["200"] = {{"description", "The result"},
-                      {"headers",
-                       {{"Wellspaced-Job", header("id under which the result is kept")},
-                        {"Wellspaced-Summary", header("for formats without a summary of their own: the JSON result without its arrays, one line")}}},
-                      {"content", result_content(name, camel + "Result")}};
+  responses["200"] = {
+      {"description", "The result"},
+      {"headers",
+       {{"Wellspaced-Job", header("id under which the result is kept")},
+        {"Wellspaced-Summary",
+         header(
+             "for formats without a summary of their own: the JSON result without its arrays, one line")}}},
+      {"content", result_content(name, camel + "Result")}};
   responses["202"] = {{"description", "The job is on disk; its result can be fetched later"},
                       {"headers", {{"Location", header("the job")}, {"Retry-After", header("seconds")}}},
                       {"content", {{"application/json", {{"schema", schema_reference("Job")}}}}}};
   responses.update(problems({400, 404, 406, 408, 409, 410, 411, 413, 415, 422, 429, 500, 503, 504, 507}));
   std::string description = "The same request gives the same bytes, synchronous or not.";
   if (name != "generate")
-    description += " With points as npy or csv in the body, everything else goes into the query: method=, beta=, domain.width=, ...";
+    description +=
+        " With points as npy or csv in the body, everything else goes into the query: method=, beta=, "
+        "domain.width=, ...";
   return {{"post",
            {{"operationId", name},
             {"tags", {"operations"}},
@@ -111,8 +125,8 @@ ordered_json operation_path(const std::string& name, const std::string& summary)
             {"responses", responses}}}};
 }
 
-ordered_json get(const char* id, const char* tag, const char* summary, ordered_json content, const std::vector<int>& statuses,
-                 ordered_json parameters = ordered_json::array()) {
+ordered_json get(const char* id, const char* tag, const char* summary, ordered_json content,
+                 const std::vector<int>& statuses, ordered_json parameters = ordered_json::array()) {
   ordered_json out = {{"operationId", id}, {"tags", {tag}}, {"summary", summary}};
   if (!parameters.empty()) out["parameters"] = std::move(parameters);
   out["responses"] = {{"200", {{"description", "OK"}, {"content", std::move(content)}}}};
@@ -120,37 +134,59 @@ ordered_json get(const char* id, const char* tag, const char* summary, ordered_j
   return out;
 }
 
-ordered_json json_content(ordered_json schema) { return {{"application/json", {{"schema", std::move(schema)}}}}; }
+ordered_json json_content(ordered_json schema) {
+  return {{"application/json", {{"schema", std::move(schema)}}}};
+}
 ordered_json text_content() { return {{"text/plain", {{"schema", {{"type", "string"}}}}}}; }
 
 ordered_json job_paths() {
   const ordered_json id = parameter("id", "path", "of the job", {{"type", "string"}});
   const ordered_json text = {{"type", "string"}};
   ordered_json paths;
-  paths["/v1/jobs"] = {{"get", get("listJobs", "jobs", "List jobs, newest first", json_content(schema_reference("JobList")), {422, 503},
-                                   {parameter("status", "query", "only these", {{"type", "string"}, {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}),
-                                    parameter("operation", "query", "only these", text),
-                                    parameter("limit", "query", "jobs a page", {{"type", "integer"}, {"minimum", 1}, {"maximum", 500}, {"default", 50}}),
-                                    parameter("cursor", "query", "from Link: rel=next", text)})}};
-  ordered_json remove = {{"operationId", "deleteJob"},
-                         {"tags", {"jobs"}},
-                         {"summary", "Cancel a live job; with purge=true, delete a finished one"},
-                         {"parameters", {id, parameter("purge", "query", "needed for finished jobs, so that a repeated cancel destroys nothing", {{"type", "boolean"}})}},
-                         {"responses", {{"200", {{"description", "Cancel requested"}, {"content", json_content(schema_reference("Job"))}}}, {"204", {{"description", "Deleted"}}}}}};
+  paths["/v1/jobs"] = {
+      {"get", get("listJobs", "jobs", "List jobs, newest first", json_content(schema_reference("JobList")),
+                  {422, 503},
+                  {parameter("status", "query", "only these",
+                             {{"type", "string"},
+                              {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}),
+                   parameter("operation", "query", "only these", text),
+                   parameter("limit", "query", "jobs a page",
+                             {{"type", "integer"}, {"minimum", 1}, {"maximum", 500}, {"default", 50}}),
+                   parameter("cursor", "query", "from Link: rel=next", text)})}};
+  ordered_json remove = {
+      {"operationId", "deleteJob"},
+      {"tags", {"jobs"}},
+      {"summary", "Cancel a live job; with purge=true, delete a finished one"},
+      {"parameters",
+       {id,
+        parameter("purge", "query", "needed for finished jobs, so that a repeated cancel destroys nothing",
+                  {{"type", "boolean"}})}},
+      {"responses",
+       {{"200", {{"description", "Cancel requested"}, {"content", json_content(schema_reference("Job"))}}},
+        {"204", {{"description", "Deleted"}}}}}};
   remove["responses"].update(problems({404, 409, 503}));
-  paths["/v1/jobs/{id}"] = {{"get", get("getJob", "jobs", "Status of a job; Prefer: wait=20 waits for its end", json_content(schema_reference("Job")), {404, 503},
-                                        {id, parameter("Prefer", "header", "wait=seconds, at most 60", text)})},
-                            {"delete", remove}};
-  paths["/v1/jobs/{id}/events"] = {{"get", get("getJobEvents", "jobs", "Server-sent events status, progress and done", {{"text/event-stream", {{"schema", text}}}}, {404, 503},
-                                               {id, parameter("Last-Event-ID", "header", "go on after this one", text)})}};
-  paths["/v1/jobs/{id}/events"]["get"]["responses"]["204"] = {{"description", "Nothing will come after Last-Event-ID"}};
+  paths["/v1/jobs/{id}"] = {
+      {"get", get("getJob", "jobs", "Status of a job; Prefer: wait=20 waits for its end",
+                  json_content(schema_reference("Job")), {404, 503},
+                  {id, parameter("Prefer", "header", "wait=seconds, at most 60", text)})},
+      {"delete", remove}};
+  paths["/v1/jobs/{id}/events"] = {
+      {"get", get("getJobEvents", "jobs", "Server-sent events status, progress and done",
+                  {{"text/event-stream", {{"schema", text}}}}, {404, 503},
+                  {id, parameter("Last-Event-ID", "header", "go on after this one", text)})}};
+  paths["/v1/jobs/{id}/events"]["get"]["responses"]["204"] = {
+      {"description", "Nothing will come after Last-Event-ID"}};
   ordered_json parameters = format_parameters("generate");
   parameters.insert(parameters.begin(), id);
   parameters.push_back(parameter("Range", "header", "one range of bytes", text));
   parameters.push_back(parameter("If-None-Match", "header", "an ETag", text));
   ordered_json content = result_content("generate", "GenerateResult");
-  content["application/json"]["schema"] = {{"oneOf", {schema_reference("GenerateResult"), schema_reference("OptimizeResult"), schema_reference("AnalyzeResult")}}};
-  ordered_json result = get("getJobResult", "jobs", "Result of a job", content, {404, 406, 409, 410, 416, 422, 500, 503, 504}, parameters);
+  content["application/json"]["schema"] = {
+      {"oneOf",
+       {schema_reference("GenerateResult"), schema_reference("OptimizeResult"),
+        schema_reference("AnalyzeResult")}}};
+  ordered_json result = get("getJobResult", "jobs", "Result of a job", content,
+                            {404, 406, 409, 410, 416, 422, 500, 503, 504}, parameters);
   result["responses"]["206"] = {{"description", "The range asked for"}};
   result["responses"]["304"] = {{"description", "Not modified"}};
   paths["/v1/jobs/{id}/result"] = {{"get", result}};
@@ -160,9 +196,13 @@ ordered_json job_paths() {
 ordered_json service_paths() {
   const ordered_json any = {{"type", "object"}};
   ordered_json paths;
-  paths["/v1/operations"] = {{"get", get("listOperations", "service", "Methods, parameters, formats and limits", json_content(any), {503})}};
-  paths["/v1/operations/{operation}"] = {{"get", get("getOperation", "service", "One operation", json_content(any), {404},
-                                                     {parameter("operation", "path", "its name", {{"type", "string"}, {"enum", {"generate", "optimize", "analyze"}}})})}};
+  paths["/v1/operations"] = {
+      {"get", get("listOperations", "service", "Methods, parameters, formats and limits", json_content(any),
+                  {503})}};
+  paths["/v1/operations/{operation}"] = {
+      {"get", get("getOperation", "service", "One operation", json_content(any), {404},
+                  {parameter("operation", "path", "its name",
+                             {{"type", "string"}, {"enum", {"generate", "optimize", "analyze"}}})})}};
   paths["/livez"] = {{"get", get("getLivez", "service", "The process answers", text_content(), {503})}};
   paths["/readyz"] = {{"get", get("getReadyz", "service", "New work is taken", text_content(), {503})}};
   paths["/version"] = {{"get", get("getVersion", "service", "Name and version", json_content(any), {503})}};
@@ -183,24 +223,29 @@ ordered_json openapi_json(const Limits& limits) {
   paths.update(service_paths());
   ordered_json responses;
   for (const auto& [status, text] : problem_statuses)
-    responses["Problem" + std::to_string(status)] = {{"description", text},
-                                                     {"content", {{"application/problem+json", {{"schema", schema_reference("Problem")}}}}}};
-  ordered_json out = {{"openapi", "3.1.0"},
-                      {"info",
-                       {{"title", "wellspaced"},
-                        {"version", version()},
-                        {"summary", "Well-spaced blue-noise point sets"},
-                        {"description", "Generates, optimizes and analyzes point sets that are random and yet cover their domain evenly, measured by beta = r_c / r_f, coverage radius over conflict radius. Limits here: body " +
-                                            std::to_string(limits.body_bytes) + " bytes, " + std::to_string(limits.generate_points) + " points."},
-                        {"license", {{"name", "GPL-3.0-or-later"}, {"identifier", "GPL-3.0-or-later"}}}}},
-                      {"servers", {{{"url", "/"}, {"description", "where this document came from"}}}},
-                      {"security", ordered_json::array()},
-                      {"tags",
-                       {{{"name", "operations"}, {"description", "The work"}},
-                        {{"name", "jobs"}, {"description", "Work that is waited for elsewhere"}},
-                        {{"name", "service"}, {"description", "The service itself"}}}},
-                      {"paths", std::move(paths)},
-                      {"components", {{"schemas", openapi_schemas()}, {"responses", std::move(responses)}}}};
+    responses["Problem" + std::to_string(status)] = {
+        {"description", text},
+        {"content", {{"application/problem+json", {{"schema", schema_reference("Problem")}}}}}};
+  ordered_json out = {
+      {"openapi", "3.1.0"},
+      {"info",
+       {{"title", "wellspaced"},
+        {"version", version()},
+        {"summary", "Well-spaced blue-noise point sets"},
+        {"description",
+         "Generates, optimizes and analyzes point sets that are random and yet cover their domain evenly, "
+         "measured by beta = r_c / r_f, coverage radius over conflict radius. Limits here: body " +
+             std::to_string(limits.body_bytes) + " bytes, " + std::to_string(limits.generate_points) +
+             " points."},
+        {"license", {{"name", "GPL-3.0-or-later"}, {"identifier", "GPL-3.0-or-later"}}}}},
+      {"servers", {{{"url", "/"}, {"description", "where this document came from"}}}},
+      {"security", ordered_json::array()},
+      {"tags",
+       {{{"name", "operations"}, {"description", "The work"}},
+        {{"name", "jobs"}, {"description", "Work that is waited for elsewhere"}},
+        {{"name", "service"}, {"description", "The service itself"}}}},
+      {"paths", std::move(paths)},
+      {"components", {{"schemas", openapi_schemas()}, {"responses", std::move(responses)}}}};
   return out;
 }
 

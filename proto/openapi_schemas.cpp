@@ -11,7 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json typed(const char* type, const std::string& description) { return {{"type", type}, {"description", description}}; }
+ordered_json typed(const char* type, const std::string& description) {
+  return {{"type", type}, {"description", description}};
+}
 
 ordered_json object(ordered_json properties, ordered_json required = ordered_json::array()) {
   ordered_json out = {{"type", "object"}, {"properties", std::move(properties)}};
@@ -40,9 +42,15 @@ std::string camel(const std::string& name) {
 }
 
 ordered_json domain_schema() {
-  ordered_json side = {{"type", "number"}, {"minimum", Torus::min_side}, {"maximum", Torus::max_side}, {"default", 1}};
-  ordered_json schema = closed(object({{"type", {{"type", "string"}, {"enum", {"torus"}}, {"default", "torus"}}}, {"width", side}, {"height", side}}));
-  schema["description"] = "The flat torus [0, width) x [0, height), half-open; the longer side at most 1000 times the shorter one.";
+  ordered_json side = {
+      {"type", "number"}, {"minimum", Torus::min_side}, {"maximum", Torus::max_side}, {"default", 1}};
+  ordered_json schema =
+      closed(object({{"type", {{"type", "string"}, {"enum", {"torus"}}, {"default", "torus"}}},
+                     {"width", side},
+                     {"height", side}}));
+  schema["description"] =
+      "The flat torus [0, width) x [0, height), half-open; the longer side at most 1000 times the shorter "
+      "one.";
   return schema;
 }
 
@@ -75,12 +83,16 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
 ordered_json picture_schema() {
   ordered_json names = ordered_json::array();
   for (const auto name : pictures()) names.push_back(name);
-  return {{"type", "string"}, {"enum", names}, {"default", pictures().front()}, {"description", "what an SVG answer shows"}};
+  return {{"type", "string"},
+          {"enum", names},
+          {"default", pictures().front()},
+          {"description", "what an SVG answer shows"}};
 }
 
 /// One schema a method and their union.
 template <class Row>
-void add_methods(ordered_json& schemas, const std::string& prefix, std::span<const Row> rows, const ordered_json& common) {
+void add_methods(ordered_json& schemas, const std::string& prefix, std::span<const Row> rows,
+                 const ordered_json& common) {
   ordered_json choices = ordered_json::array();
   for (const Row& row : rows) {
     schemas[prefix + camel(row.name)] = method_schema(row, rows.front().name, common);
@@ -90,11 +102,15 @@ void add_methods(ordered_json& schemas, const std::string& prefix, std::span<con
 }
 
 ordered_json source_schema() {
-  const auto only = [](const char* name, ordered_json schema) { return closed(object({{name, std::move(schema)}}, {name})); };
-  ordered_json inline_set = closed(object({{"points", schema_reference("Points")}, {"domain", schema_reference("Domain")}}, {"points"}));
+  const auto only = [](const char* name, ordered_json schema) {
+    return closed(object({{name, std::move(schema)}}, {name}));
+  };
+  ordered_json inline_set = closed(
+      object({{"points", schema_reference("Points")}, {"domain", schema_reference("Domain")}}, {"points"}));
   return {{"description", "Points in place, generated here, or of an earlier job."},
           {"oneOf",
-           {schema_reference("Points"), inline_set, only("generate", schema_reference("PointsToGenerate")), only("job", typed("string", "id of a job"))}}};
+           {schema_reference("Points"), inline_set, only("generate", schema_reference("PointsToGenerate")),
+            only("job", typed("string", "id of a job"))}}};
 }
 
 ordered_json common_result() {
@@ -110,38 +126,52 @@ void add_results(ordered_json& schemas) {
   generate["parameters"] = {{"type", "object"}};
   generate["points"] = schema_reference("Points");
   ordered_json optimize = generate;
-  for (const char* name : {"beta", "r_f", "r_c", "rho", "beta_i_max", "beta_i_mean"}) optimize[name] = spacing_schema()["properties"][name];
+  for (const char* name : {"beta", "r_f", "r_c", "rho", "beta_i_max", "beta_i_mean"})
+    optimize[name] = spacing_schema()["properties"][name];
   optimize["sweeps"] = typed("integer", "done in all; the best state may be an earlier one");
-  optimize["converged"] = {{"type", {"boolean", "null"}}, {"description", "whether the measured global beta is at most the target; null for methods without one"}};
-  optimize["history"] = {{"type", "array"}, {"description", "[sweep, beta, r_c, r_f], from the input (sweep 0) on"}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
+  optimize["converged"] = {
+      {"type", {"boolean", "null"}},
+      {"description",
+       "whether the measured global beta is at most the target; null for methods without one"}};
+  optimize["history"] = {{"type", "array"},
+                         {"description", "[sweep, beta, r_c, r_f], from the input (sweep 0) on"},
+                         {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
   ordered_json analyze = common_result();
   for (const Measure& measure : measures()) analyze[measure.name] = measure.schema();
   schemas["GenerateResult"] = object(generate, {"n", "method", "parameters", "version", "domain", "points"});
-  schemas["OptimizeResult"] = object(optimize, {"n", "method", "parameters", "beta", "r_f", "r_c", "rho", "sweeps", "converged", "history", "version", "domain", "points"});
+  schemas["OptimizeResult"] =
+      object(optimize, {"n", "method", "parameters", "beta", "r_f", "r_c", "rho", "sweeps", "converged",
+                        "history", "version", "domain", "points"});
   schemas["AnalyzeResult"] = object(analyze, {"n", "version", "domain"});
 }
 
 ordered_json job_schema() {
   ordered_json time = {{"type", {"string", "null"}}, {"format", "date-time"}};
-  return object({{"id", typed("string", "")},
-                 {"operation", typed("string", "")},
-                 {"status", {{"type", "string"}, {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}},
-                 {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
-                 {"message", typed("string", "")},
-                 {"attempt", typed("integer", "how often a worker has taken it")},
-                 {"queue", object({{"position", typed("integer", "1 is next")}})},
-                 {"created", time},
-                 {"started", time},
-                 {"updated", time},
-                 {"finished", time},
-                 {"expires", time},
-                 {"links", {{"type", "array"}, {"items", object({{"rel", typed("string", "")}, {"href", typed("string", "")}})}}},
-                 {"problem", schema_reference("Problem")}},
-                {"id", "operation", "status", "progress", "created", "links"});
+  return object(
+      {{"id", typed("string", "")},
+       {"operation", typed("string", "")},
+       {"status",
+        {{"type", "string"}, {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}},
+       {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+       {"message", typed("string", "")},
+       {"attempt", typed("integer", "how often a worker has taken it")},
+       {"queue", object({{"position", typed("integer", "1 is next")}})},
+       {"created", time},
+       {"started", time},
+       {"updated", time},
+       {"finished", time},
+       {"expires", time},
+       {"links",
+        {{"type", "array"},
+         {"items", object({{"rel", typed("string", "")}, {"href", typed("string", "")}})}}},
+       {"problem", schema_reference("Problem")}},
+      {"id", "operation", "status", "progress", "created", "links"});
 }
 
 ordered_json problem_schema() {
-  ordered_json error = object({{"pointer", typed("string", "JSON pointer of the field")}, {"detail", typed("string", "what is wrong with it, and the way out")}}, {"pointer", "detail"});
+  ordered_json error = object({{"pointer", typed("string", "JSON pointer of the field")},
+                               {"detail", typed("string", "what is wrong with it, and the way out")}},
+                              {"pointer", "detail"});
   return object({{"type", typed("string", "/problems/<name>")},
                  {"title", typed("string", "fixed for a type")},
                  {"status", typed("integer", "HTTP status")},
@@ -159,19 +189,25 @@ ordered_json openapi_schemas() {
   ordered_json schemas;
   schemas["Domain"] = domain_schema();
   schemas["Points"] = points_schema();
-  const ordered_json seed = {{"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
+  const ordered_json seed = {
+      {"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
   const ordered_json made = {{"domain", schema_reference("Domain")}, {"seed", seed}};
   ordered_json asked = made;
   asked["picture"] = picture_schema();
   add_methods(schemas, "PointsToGenerate", generators(), made);
   add_methods(schemas, "GenerateRequest", generators(), asked);
   schemas["PointSource"] = source_schema();
-  const ordered_json worked_on = {{"points", schema_reference("PointSource")}, {"domain", schema_reference("Domain")}, {"picture", picture_schema()}};
+  const ordered_json worked_on = {{"points", schema_reference("PointSource")},
+                                  {"domain", schema_reference("Domain")},
+                                  {"picture", picture_schema()}};
   add_methods(schemas, "OptimizeRequest", optimizers(), worked_on);
   ordered_json names = ordered_json::array();
   for (const Measure& m : measures()) names.push_back(m.name);
   ordered_json analyze = worked_on;
-  analyze["measures"] = {{"type", "array"}, {"items", {{"type", "string"}, {"enum", names}}}, {"minItems", 1}, {"default", {measures().front().name}}};
+  analyze["measures"] = {{"type", "array"},
+                         {"items", {{"type", "string"}, {"enum", names}}},
+                         {"minItems", 1},
+                         {"default", {measures().front().name}}};
   schemas["AnalyzeRequest"] = closed(object(analyze, {"points"}));
   add_results(schemas);
   schemas["Job"] = job_schema();

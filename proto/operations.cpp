@@ -34,7 +34,11 @@ ordered_json methods_json(std::span<const Row> rows) {
 ordered_json measures_json() {
   ordered_json out = ordered_json::array();
   for (const Measure& m : measures())
-    out.push_back({{"name", m.name}, {"title", m.title}, {"description", m.description}, {"reference", m.reference}, {"result", m.schema()}});
+    out.push_back({{"name", m.name},
+                   {"title", m.title},
+                   {"description", m.description},
+                   {"reference", m.reference},
+                   {"result", m.schema()}});
   return out;
 }
 
@@ -44,10 +48,13 @@ ordered_json parameter_schema(const Parameter& p) {
   ordered_json schema = {{"type", p.type == Parameter::Type::integer ? "integer" : "number"}};
   std::string description = p.description;
   if (!p.unit.empty()) description += " (" + p.unit + ")";
-  const ordered_json fallback = p.fallback.empty() ? ordered_json() : ordered_json::parse(p.fallback, nullptr, false);
+  const ordered_json fallback =
+      p.fallback.empty() ? ordered_json() : ordered_json::parse(p.fallback, nullptr, false);
   if (!p.fallback.empty() && !fallback.is_number()) description += "; default: " + p.fallback;
   schema["description"] = description;
-  const auto bound = [&](double x) { return p.type == Parameter::Type::integer ? ordered_json(static_cast<std::int64_t>(x)) : ordered_json(x); };
+  const auto bound = [&](double x) {
+    return p.type == Parameter::Type::integer ? ordered_json(static_cast<std::int64_t>(x)) : ordered_json(x);
+  };
   schema[p.exclusive_minimum ? "exclusiveMinimum" : "minimum"] = bound(p.minimum);
   if (p.maximum < 1e14) schema[p.exclusive_maximum ? "exclusiveMaximum" : "maximum"] = bound(p.maximum);
   if (fallback.is_number()) schema["default"] = fallback;
@@ -56,15 +63,18 @@ ordered_json parameter_schema(const Parameter& p) {
 
 ordered_json operations_json(const Limits& limits) {
   ordered_json out = {{"version", version()}, {"operations", ordered_json::array()}};
-  const auto add = [&](const char* name, const char* description, const char* kind, ordered_json methods, std::uint64_t points) {
+  const auto add = [&](const char* name, const char* description, const char* kind, ordered_json methods,
+                       std::uint64_t points) {
     out["operations"].push_back({{"name", name},
                                  {"description", description},
                                  {kind, std::move(methods)},
                                  {"formats", formats_json(name)},
                                  {"limits", {{"points", points}}}});
   };
-  add("generate", "Makes a point set on a domain.", "methods", methods_json(generators()), limits.generate_points);
-  add("optimize", "Moves the points of a set until it is as well spaced as asked for.", "methods", methods_json(optimizers()), limits.optimize_points);
+  add("generate", "Makes a point set on a domain.", "methods", methods_json(generators()),
+      limits.generate_points);
+  add("optimize", "Moves the points of a set until it is as well spaced as asked for.", "methods",
+      methods_json(optimizers()), limits.optimize_points);
   add("analyze", "Measures a point set.", "measures", measures_json(), limits.analyze_points);
   ordered_json names = ordered_json::array();
   for (const auto picture : pictures()) names.push_back(picture);

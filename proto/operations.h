@@ -7,8 +7,8 @@
 
 namespace wellspaced {
 
-/// What /v1/operations tells: every operation with its methods, their parameters as JSON Schema, formats and limits. Made from
-/// the same registry that requests are validated by.
+/// What /v1/operations tells: every operation with its methods, their parameters as JSON Schema, formats and
+/// limits. Made from the same registry that requests are validated by.
 nlohmann::ordered_json operations_json(const Limits& limits);
 
 /// JSON Schema of one parameter.
