@@ -1,16 +1,12 @@
 #include "proto/arguments.h"
 
-#include <limits>
+#include <cmath>
 
 namespace wellspaced {
 namespace {
 
-std::string number_text(double x) {
-  return nlohmann::json(x == std::floor(x) && std::abs(x) < 1e15
-                            ? nlohmann::json(static_cast<std::int64_t>(x))
-                            : nlohmann::json(x))
-      .dump();
-}
+/// Above this a maximum only keeps numbers exact; the operator's limits are what users meet.
+constexpr double unbounded = 1e14;
 
 double read_value(const Parameter& p, const nlohmann::json& value, const std::string& where) {
   const bool whole = p.type == Parameter::Type::integer;
@@ -22,47 +18,57 @@ double read_value(const Parameter& p, const nlohmann::json& value, const std::st
   const bool too_low = p.exclusive_minimum ? !(x > p.minimum) : !(x >= p.minimum);
   const bool too_high = p.exclusive_maximum ? !(x < p.maximum) : !(x <= p.maximum);
   if (too_low && !p.infeasible_below.empty())
-    throw Error(ErrorCode::infeasible, p.infeasible_below + "; found " + value.dump(), where);
+    throw Error(ErrorCode::infeasible, p.infeasible_below + "; found " + number_text(x), where);
   if (too_low || too_high || (whole && x != std::floor(x)))
     throw Error(ErrorCode::invalid_parameters,
-                std::string("must be a ") + (whole ? "whole " : "") + "number " + range_text(p) + "; found " +
-                    value.dump(),
+                std::string("must be a ") + (whole ? "whole " : "") + "number " +
+                    (too_high ? "up to " + number_text(p.maximum) : range_text(p)) + "; found " +
+                    number_text(x),
                 where);
   return x;
+}
+
+void require_one_density(const Method& method, const Arguments& arguments, const Fields& fields) {
+  std::string all, first, last_given;
+  std::size_t given = 0;
+  for (const Parameter& p : method.parameters) {
+    if (!p.density) continue;
+    if (first.empty()) first = p.name;
+    all += (all.empty() ? "" : " or ") + p.name;
+    if (arguments.count(p.name) == 0) continue;
+    last_given = p.name;
+    ++given;
+  }
+  if (first.empty() || given == 1) return;
+  if (given == 0)
+    throw Error(ErrorCode::invalid_parameters,
+                "give " + all + ": nothing says yet how many points are wanted", fields.pointer_to(first));
+  throw Error(ErrorCode::invalid_parameters, "give either " + all + ", not both: each follows from the other",
+              fields.pointer_to(last_given));
 }
 
 }  // namespace
 
 std::string range_text(const Parameter& p) {
   const std::string low = number_text(p.minimum);
-  if (p.maximum > 1e14) return p.exclusive_minimum ? "greater than " + low : "of at least " + low;
+  if (p.maximum > unbounded) return p.exclusive_minimum ? "greater than " + low : "of at least " + low;
   return std::string(p.exclusive_minimum ? "in (" : "in [") + low + ", " + number_text(p.maximum) +
          (p.exclusive_maximum ? ")" : "]");
 }
 
 Arguments read_arguments(const Method& method, Fields& fields) {
+  // A misspelled name is told as such, not as the absence of the right one.
+  for (const Parameter& p : method.parameters) fields.find(p.name);
+  fields.refuse_unknown();
   Arguments arguments;
-  std::string densities, given;
   for (const Parameter& p : method.parameters) {
-    if (p.density) densities += (densities.empty() ? "" : " or ") + p.name;
-    const auto* value = fields.find(p.name);
-    if (value == nullptr) {
-      if (p.required)
-        throw Error(ErrorCode::invalid_parameters, "the field is missing: " + p.description,
-                    fields.pointer_to(p.name));
-      continue;
-    }
-    arguments[p.name] = read_value(p, *value, fields.pointer_to(p.name));
-    if (p.density && !given.empty())
-      throw Error(ErrorCode::invalid_parameters,
-                  "give either " + densities + ", not both: each follows from the other",
+    if (const auto* value = fields.find(p.name))
+      arguments[p.name] = read_value(p, *value, fields.pointer_to(p.name));
+    else if (p.required)
+      throw Error(ErrorCode::invalid_parameters, "the field is missing: " + p.description,
                   fields.pointer_to(p.name));
-    if (p.density) given = p.name;
   }
-  if (!densities.empty() && given.empty())
-    throw Error(ErrorCode::invalid_parameters,
-                "give " + densities + ": nothing says yet how many points are wanted",
-                fields.pointer().empty() ? "/count" : fields.pointer() + "/count");
+  require_one_density(method, arguments, fields);
   return arguments;
 }
 

@@ -7,9 +7,11 @@ namespace wellspaced {
 
 /// Reads a method's arguments from a request by its parameters' descriptions.
 ///
-/// Errors, at the field: invalid_parameters for a wrong type or a value out of range, for a missing required
-/// parameter, and for none or more than one of its density parameters; infeasible for a value that geometry
-/// rules out.
+/// Requires: the caller has asked `fields` for everything that is not the method's, since unknown fields are
+/// refused here.
+/// Errors, at the field: invalid_parameters for an unknown name, for a wrong type or a value out of range,
+/// for a missing required parameter, and for none or more than one of its density parameters; infeasible for
+/// a value that geometry rules out.
 Arguments read_arguments(const Method& method, Fields& fields);
 
 /// "in [0.57735, 1)", "at least 1", ...: the range in words.

@@ -32,8 +32,14 @@ std::string describe(const nlohmann::json& value) {
     case nlohmann::json::value_t::null:
       return "null";
     default:
-      return "the number " + value.dump();
+      return "the number " + number_text(value.get<double>());
   }
+}
+
+std::string number_text(double x) {
+  constexpr double exact_whole = 0x1p53;
+  if (x == std::floor(x) && std::abs(x) <= exact_whole) return std::to_string(static_cast<std::int64_t>(x));
+  return nlohmann::json(x).dump();
 }
 
 Fields::Fields(const nlohmann::json& value, std::string pointer)
@@ -76,6 +82,7 @@ std::optional<std::uint64_t> Fields::whole(const std::string& name) {
   const auto* value = find(name);
   if (value == nullptr) return {};
   if (value->is_number_unsigned()) return value->get<std::uint64_t>();
+  if (value->is_number_integer() && value->get<std::int64_t>() >= 0) return value->get<std::uint64_t>();
   if (value->is_number_float()) {
     const double x = value->get<double>();
     if (x >= 0 && x < 0x1p64 && x == std::floor(x)) return static_cast<std::uint64_t>(x);

@@ -45,6 +45,9 @@ class Fields {
 /// "a string", "the number 1.5", "an array": for error messages; never echoes more than a number.
 std::string describe(const nlohmann::json& value);
 
+/// A number for people: 10000, not 10000.0.
+std::string number_text(double x);
+
 /// One reference token of a JSON pointer, escaped and cut to a readable length.
 std::string pointer_token(std::string_view key);
 

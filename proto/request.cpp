@@ -29,18 +29,42 @@ json scalar_from_text(const std::string& text) {
   return value.is_number() ? value : json(text);
 }
 
+/// The one parameter that is a list: measures=a,b
+json value_from_text(const std::string& name, const std::string& text) {
+  if (name != "measures") return scalar_from_text(text);
+  json list = json::array();
+  std::size_t from = 0;
+  for (std::size_t to = 0; to != std::string::npos; from = to + 1) {
+    to = text.find(',', from);
+    list.push_back(text.substr(from, to == std::string::npos ? to : to - from));
+  }
+  return list;
+}
+
+/// domain.width=2 stands for {"domain": {"width": 2}}.
 json object_from_query(const std::vector<std::pair<std::string, std::string>>& query) {
   json root = json::object();
   for (const auto& [key, value] : query) {
     const auto dot = key.find('.');
-    json& parent = dot == std::string::npos ? root : root[key.substr(0, dot)];
-    if (dot != std::string::npos && !parent.is_object()) parent = json::object();
-    const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
-    if (parent.contains(name))
-      throw Error(ErrorCode::invalid_parameters, "the parameter is given twice", pointer_token(key));
-    parent[name] = scalar_from_text(value);
+    const bool nested = dot != std::string::npos;
+    const std::string outer = key.substr(0, dot), name = nested ? key.substr(dot + 1) : key;
+    if (nested && !root.contains(outer)) root[outer] = json::object();
+    json& parent = nested ? root[outer] : root;
+    if (!parent.is_object() || parent.contains(name))
+      throw Error(ErrorCode::invalid_parameters, "the parameter is given twice; give it once",
+                  (nested ? pointer_token(outer) : "") + pointer_token(name));
+    parent[name] = value_from_text(name, value);
   }
   return root;
+}
+
+/// The points of a body that is not JSON. Errors point to where the points would be in a JSON body.
+Table read_table(Format format, std::string_view body, std::size_t row_limit) {
+  try {
+    return format == Format::npy ? read_npy(body, row_limit) : read_csv(body, row_limit);
+  } catch (const Error& error) {
+    throw error.within("/points");
+  }
 }
 
 std::uint64_t point_limit(std::string_view operation, const Limits& limits) {
@@ -64,13 +88,12 @@ Document read_document(const RawRequest& raw, const Limits& limits) {
   if (raw.operation == "generate")
     throw Error(ErrorCode::unsupported_media_type,
                 "generate takes no points; send its parameters as application/json");
-  Document document{object_from_query(raw.query),
-                    format == Format::npy ? read_npy(raw.body, rows) : read_csv(raw.body, rows), ""};
-  if (document.root.contains("points"))
+  json root = object_from_query(raw.query);
+  if (root.contains("points"))
     throw Error(ErrorCode::invalid_parameters, "the points are the body; leave this parameter out",
                 "/points");
-  document.root["points"] = json::array();
-  return document;
+  root["points"] = json::array();
+  return {std::move(root), read_table(format, raw.body, rows), "/points"};
 }
 
 template <class Row>
@@ -91,8 +114,8 @@ std::shared_ptr<const Domain> domain_field(Fields& fields) {
 void require_count(double points, std::uint64_t limit, const std::string& where) {
   if (points <= static_cast<double>(limit)) return;
   throw Error(ErrorCode::too_large,
-              "about " + json(std::round(points)).dump() + " points are asked for, but the limit here is " +
-                  std::to_string(limit) + "; ask for fewer",
+              (std::isfinite(points) ? "about " + number_text(std::round(points)) : "Countless") +
+                  " points are asked for, but the limit here is " + std::to_string(limit) + "; ask for fewer",
               where);
 }
 
@@ -101,8 +124,8 @@ GenerateRequest generate_request(Fields& fields, std::uint64_t limit) {
   request.domain = domain_field(fields);
   request.method = &find_row(generators(), fields.text("method").value_or(generators().front().name),
                              fields.pointer_to("method"));
-  request.arguments = read_arguments(*request.method, fields);
   request.seed = fields.whole("seed").value_or(0);
+  request.arguments = read_arguments(*request.method, fields);
   const std::string density = fields.pointer_to(request.arguments.count("count") != 0 ? "count" : "radius");
   require_count(request.method->expected_count(*request.domain, request.arguments), limit, density);
   try {
@@ -150,9 +173,7 @@ PointSource source_object(const json& value, Document& document, std::uint64_t l
   if (generate != nullptr) {
     fields.refuse_unknown();
     Fields inner(*generate, "/points/generate");
-    GenerateRequest request = generate_request(inner, limit);
-    inner.refuse_unknown();
-    return request;
+    return generate_request(inner, limit);
   }
   if (job != nullptr) return job_points_field(fields, job_points);
   if (!document.points)
@@ -186,10 +207,9 @@ OptimizeRequest optimize_request(Fields& fields, Document& document, const Limit
   // The method's own fields first: they are cheap to check, the points are not.
   request.method =
       &find_row(optimizers(), fields.text("method").value_or(optimizers().front().name), "/method");
-  request.arguments = read_arguments(*request.method, fields);
   fields.find("points");
   fields.find("domain");
-  fields.refuse_unknown();
+  request.arguments = read_arguments(*request.method, fields);
   request.points = point_source(fields, document, limits.optimize_points, job_points);
   return request;
 }
@@ -272,7 +292,6 @@ Request read_request(const RawRequest& raw, const Limits& limits, const JobPoint
   if (!request.picture.empty()) require_picture(request.picture, "/picture");
   if (raw.operation == "generate") {
     request.operation = generate_request(fields, limits.generate_points);
-    fields.refuse_unknown();
   } else if (raw.operation == "optimize") {
     request.operation = optimize_request(fields, document, limits, job_points);
   } else {

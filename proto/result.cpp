@@ -37,6 +37,23 @@ std::string summary_line(const Result& result) {
   return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
 
+Error unreadable() { return {ErrorCode::internal, "a kept result can't be read"}; }
+
+/// All of a kept result but its coordinates.
+Result load_head(std::string_view line) {
+  try {
+    const ordered_json head = ordered_json::parse(line);
+    return {head.at("operation"),
+            head.at("summary"),
+            {read_domain(nlohmann::json(head.at("domain")), ""), {}},
+            head.at("picture")};
+  } catch (const ordered_json::exception&) {
+    throw unreadable();
+  } catch (const Error&) {
+    throw unreadable();
+  }
+}
+
 std::string write_svg(const Result& result, std::string_view picture, const Limits& limits,
                       const Control& control) {
   if (result.points.size() > limits.picture_points)
@@ -68,14 +85,11 @@ std::string store_result(const Result& result) {
 
 Result load_result(std::string_view bytes) {
   const auto line = bytes.find('\n');
-  if (line == std::string_view::npos || (bytes.size() - line - 1) % sizeof(double) != 0)
-    throw Error(ErrorCode::internal, "a kept result can't be read");
-  const ordered_json head = ordered_json::parse(bytes.substr(0, line));
-  Result result{head.at("operation"),
-                head.at("summary"),
-                {read_domain(nlohmann::json(head.at("domain")), ""), {}},
-                head.at("picture")};
+  if (line == std::string_view::npos) throw unreadable();
+  Result result = load_head(bytes.substr(0, line));
   const std::string_view data = bytes.substr(line + 1);
+  if (data.size() % (static_cast<std::size_t>(result.points.domain->dimension()) * sizeof(double)) != 0)
+    throw unreadable();
   result.points.coordinates.resize(data.size() / sizeof(double));
   if (!data.empty()) std::memcpy(result.points.coordinates.data(), data.data(), data.size());
   return result;

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/analyze/spacing.h"
@@ -18,12 +20,13 @@ namespace {
 constexpr double scale_low = 0.5773502691896258, scale_high = 1.0;
 constexpr double legend_px = 64, margin_px = 16;
 
-/// Anchors of a perceptually even scale (dark blue, blue-green, green, yellow), interpolated linearly.
 struct Rgb {
   double r, g, b;
 };
+/// Dark blue, blue, blue-green, green, olive, amber; interpolated linearly. Lightness rises by about 11 a
+/// step, and the last one still shows on white paper.
 constexpr std::array<Rgb, 6> anchors = {
-    {{52, 30, 98}, {56, 82, 139}, {38, 127, 142}, {46, 173, 125}, {137, 211, 74}, {252, 231, 56}}};
+    {{48, 28, 96}, {44, 70, 140}, {24, 110, 140}, {36, 142, 110}, {128, 160, 50}, {232, 160, 24}}};
 
 Rgb color_of(double beta_i) {
   const double t =
@@ -34,30 +37,39 @@ Rgb color_of(double beta_i) {
   return {a.r + s * (b.r - a.r), a.g + s * (b.g - a.g), a.b + s * (b.b - a.b)};
 }
 
+/// A number that is written with `digits` significant ones.
+struct Significant {
+  double value;
+  int digits;
+};
+
 /// SVG text under construction.
 class Canvas {
  public:
-  Canvas& text(std::string_view t) {
-    out_ += t;
+  Canvas& operator<<(std::string_view text) {
+    out_ += text;
     return *this;
   }
-  /// Two decimals are a hundredth of a pixel.
-  Canvas& number(double x, int decimals = 2) {
+  /// A length in pixels, to a hundredth.
+  Canvas& operator<<(double x) {
     char buffer[64];
-    const auto end =
-        std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x, std::chars_format::fixed, decimals);
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::fixed, 2);
     std::string_view digits(buffer, static_cast<std::size_t>(end.ptr - buffer));
-    if (decimals > 0) {
-      digits.remove_suffix(digits.size() - digits.find_last_not_of('0') - 1);
-      if (digits.back() == '.') digits.remove_suffix(1);
-    }
-    out_ += digits == "-0" ? "0" : digits;
-    return *this;
+    digits = digits.substr(0, digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.remove_suffix(1);
+    return *this << (digits == "-0" ? "0" : digits);
   }
-  Canvas& color(Rgb c) {
+  Canvas& operator<<(Significant number) {
+    char buffer[64];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number.value, std::chars_format::general,
+                                   number.digits);
+    return *this << std::string_view(buffer, static_cast<std::size_t>(end.ptr - buffer));
+  }
+  Canvas& operator<<(std::size_t n) { return *this << std::string_view(std::to_string(n)); }
+  Canvas& operator<<(Rgb color) {
     constexpr char hex[] = "0123456789abcdef";
     out_ += '#';
-    for (const double channel : {c.r, c.g, c.b}) {
+    for (const double channel : {color.r, color.g, color.b}) {
       const int v = static_cast<int>(channel + 0.5);
       out_ += hex[v / 16];
       out_ += hex[v % 16];
@@ -82,173 +94,177 @@ struct View {
   double y(double domain_y) const { return height_px - domain_y * scale; }
 };
 
+/// How far something reaches around its sample, in domain lengths.
+struct Extent {
+  Vec2 low, high;
+
+  void include(Vec2 at) {
+    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+  }
+};
+
 class Painter {
  public:
   Painter(const PointSet& points, const SvgOptions& options, const Control& control)
       : points_(points),
+        control_(control),
         box_(points.domain->box()),
         view_(box_, options.size_px),
-        spacing_(measure_local_spacing(points, control)) {
-    stars_.resize(points.size());
+        spacing_(measure_local_spacing(points, control)),
+        stars_(points.size()) {
     visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
       stars_[i].assign(spokes.begin(), spokes.end());
     });
-    sample_px_ =
-        std::clamp(0.09 * hexagonal_spacing(points.domain->area(), points.size()) * view_.scale, 0.4, 5.0);
+    const double spacing_px = hexagonal_spacing(points.domain->area(), points.size()) * view_.scale;
+    sample_px_ = std::clamp(0.08 * spacing_px, 0.4, 4.0);
   }
 
   std::string paint(Picture picture) {
     open();
     if (picture == Picture::voronoi) cells();
     if (picture == Picture::delaunay) edges();
-    samples(picture == Picture::points);
-    svg_.text("</g>\n<rect width=\"").number(view_.width_px).text("\" height=\"").number(view_.height_px);
-    svg_.text("\" fill=\"none\" stroke=\"#222\"/>\n");
+    samples(picture);
+    svg_ << "</g>\n<rect width=\"" << view_.width_px << "\" height=\"" << view_.height_px
+         << "\" fill=\"none\" stroke=\"#222\"/>\n";
     legend();
-    svg_.text("</g>\n</svg>\n");
+    svg_ << "</g>\n</svg>\n";
     return svg_.take();
   }
 
  private:
+  /// Wide enough for the legend.
+  double sheet_px() const { return std::max(view_.width_px, 700.0); }
+
   void open() {
     const double w = sheet_px() + 2 * margin_px, h = view_.height_px + 2 * margin_px + legend_px;
-    svg_.text("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"").number(w).text("\" height=\"").number(h);
-    svg_.text("\" viewBox=\"0 0 ")
-        .number(w)
-        .text(" ")
-        .number(h)
-        .text("\" font-family=\"sans-serif\" font-size=\"14\">\n<title>");
-    svg_.number(static_cast<double>(points_.size()), 0)
-        .text(" points, beta ")
-        .number(spacing_.global.beta, 4)
-        .text("</title>\n");
-    svg_.text("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<clipPath id=\"domain\"><rect width=\"")
-        .number(view_.width_px);
-    svg_.text("\" height=\"")
-        .number(view_.height_px)
-        .text("\"/></clipPath>\n<g transform=\"translate(")
-        .number(margin_px);
-    svg_.text(" ").number(margin_px).text(")\">\n<g clip-path=\"url(#domain)\">\n");
+    svg_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << w << "\" height=\"" << h
+         << "\" viewBox=\"0 0 " << w << " " << h << "\" font-family=\"sans-serif\" font-size=\"14\">\n"
+         << "<title>" << points_.size() << " points, beta " << Significant{spacing_.global.beta, 4}
+         << "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+         << "<clipPath id=\"domain\"><rect width=\"" << view_.width_px << "\" height=\"" << view_.height_px
+         << "\"/></clipPath>\n<g transform=\"translate(" << margin_px << " " << margin_px << ")\">\n"
+         << "<g clip-path=\"url(#domain)\">\n";
   }
 
-  /// Calls draw(shift) for each period by which something around point i, `reach` large, may show in the
-  /// picture.
+  /// Calls draw(place) for sample i and each periodic image of it that something of this extent around it
+  /// brings into the picture.
   template <class Draw>
-  void on_all_sides(std::size_t i, double reach, const Draw& draw) {
+  void on_all_sides(std::size_t i, const Extent& extent, const Draw& draw) {
+    control_.check();
     const Vec3 p = points_[i];
-    const auto turns = [reach](double at, double size) {
-      return std::pair{std::ceil((-at - reach) / size), std::floor((size - at + reach) / size)};
+    const auto turns = [](double low, double high, double size) {
+      return std::pair{std::ceil(-high / size), std::floor((size - low) / size)};
     };
-    const auto [x0, x1] = turns(p.x, box_.size.x);
-    const auto [y0, y1] = turns(p.y, box_.size.y);
+    const auto [x0, x1] = turns(p.x + extent.low.x, p.x + extent.high.x, box_.size.x);
+    const auto [y0, y1] = turns(p.y + extent.low.y, p.y + extent.high.y, box_.size.y);
     for (double ty = y0; ty <= y1; ++ty)
       for (double tx = x0; tx <= x1; ++tx) draw(Vec2{p.x + tx * box_.size.x, p.y + ty * box_.size.y});
   }
 
-  /// Wide enough for the legend.
-  double sheet_px() const { return std::max(view_.width_px, 680.0); }
-
   void cells() {
-    const double line = std::clamp(sample_px_ / 3, 0.15, 1.0);
-    svg_.text("<g stroke=\"#fff\" stroke-linejoin=\"round\" stroke-width=\"").number(line).text("\">\n");
+    svg_ << "<g stroke=\"#fff\" stroke-linejoin=\"round\" stroke-width=\""
+         << std::clamp(sample_px_ / 3, 0.15, 1.0) << "\">\n";
     std::vector<Vec2> corners;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto& star = stars_[i];
       corners.clear();
-      for (std::size_t k = 0; k < star.size(); ++k)
+      Extent extent;
+      for (std::size_t k = 0; k < star.size(); ++k) {
         corners.push_back(circumcenter(star[k].offset, star[k + 1 == star.size() ? 0 : k + 1].offset));
-      on_all_sides(i, spacing_.global.r_c, [&](Vec2 at) {
-        svg_.text("<path fill=\"").color(color_of(spacing_.beta_i[i])).text("\" d=\"M");
-        for (const Vec2 c : corners)
-          svg_.number(view_.x(at.x + c.x)).text(" ").number(view_.y(at.y + c.y)).text(" ");
-        svg_.text("Z\"/>\n");
+        extent.include(corners.back());
+      }
+      on_all_sides(i, extent, [&](Vec2 at) {
+        svg_ << "<path fill=\"" << color_of(spacing_.beta_i[i]) << "\" d=\"M";
+        for (const Vec2 c : corners) svg_ << view_.x(at.x + c.x) << " " << view_.y(at.y + c.y) << " ";
+        svg_ << "Z\"/>\n";
       });
     }
-    svg_.text("</g>\n");
+    svg_ << "</g>\n";
   }
 
   void edges() {
-    svg_.text("<g stroke-linecap=\"round\" stroke-width=\"")
-        .number(std::clamp(0.8 * sample_px_, 0.4, 3.0))
-        .text("\">\n");
+    svg_ << "<g stroke-linecap=\"round\" stroke-width=\"" << std::clamp(0.8 * sample_px_, 0.4, 3.0)
+         << "\">\n";
     for (std::size_t i = 0; i < points_.size(); ++i)
       for (const Spoke& spoke : stars_[i]) {
         // Each edge is seen from both ends; own images, which have no smaller end, from one direction.
         const bool mine = spoke.id != i ? spoke.id > i
                                         : (spoke.offset.x > 0 || (spoke.offset.x == 0 && spoke.offset.y > 0));
-        if (!mine) continue;
-        const Rgb color = color_of(std::max(spacing_.beta_i[i], spacing_.beta_i[spoke.id]));
-        on_all_sides(i, 2 * spacing_.global.r_c, [&](Vec2 at) {
-          svg_.text("<path stroke=\"")
-              .color(color)
-              .text("\" d=\"M")
-              .number(view_.x(at.x))
-              .text(" ")
-              .number(view_.y(at.y))
-              .text("L");
-          svg_.number(view_.x(at.x + spoke.offset.x))
-              .text(" ")
-              .number(view_.y(at.y + spoke.offset.y))
-              .text("\"/>\n");
-        });
+        if (mine) edge(i, spoke);
       }
-    svg_.text("</g>\n");
+    svg_ << "</g>\n";
   }
 
-  void samples(bool colored) {
-    const double radius = colored ? 2.2 * sample_px_ : sample_px_;
-    svg_.text("<g fill=\"#111\">\n");
+  void edge(std::size_t i, const Spoke& spoke) {
+    const Rgb color = color_of(std::max(spacing_.beta_i[i], spacing_.beta_i[spoke.id]));
+    Extent extent;
+    extent.include(spoke.offset);
+    on_all_sides(i, extent, [&](Vec2 at) {
+      svg_ << "<path stroke=\"" << color << "\" d=\"M" << view_.x(at.x) << " " << view_.y(at.y) << "L"
+           << view_.x(at.x + spoke.offset.x) << " " << view_.y(at.y + spoke.offset.y) << "\"/>\n";
+    });
+  }
+
+  void samples(Picture picture) {
+    const bool alone = picture == Picture::points;
+    const double radius_px = alone ? 2.5 * sample_px_ : sample_px_, radius = radius_px / view_.scale;
+    svg_ << "<g fill=\"" << (picture == Picture::voronoi ? "#fff" : "#111") << "\">\n";
     for (std::size_t i = 0; i < points_.size(); ++i)
-      on_all_sides(i, radius / view_.scale, [&](Vec2 at) {
-        svg_.text("<circle r=\"").number(radius);
-        if (colored) svg_.text("\" fill=\"").color(color_of(spacing_.beta_i[i]));
-        svg_.text("\" cx=\"").number(view_.x(at.x)).text("\" cy=\"").number(view_.y(at.y)).text("\"/>\n");
+      on_all_sides(i, {{-radius, -radius}, {radius, radius}}, [&](Vec2 at) {
+        svg_ << "<circle r=\"" << radius_px;
+        if (alone) svg_ << "\" fill=\"" << color_of(spacing_.beta_i[i]);
+        svg_ << "\" cx=\"" << view_.x(at.x) << "\" cy=\"" << view_.y(at.y) << "\"/>\n";
       });
-    svg_.text("</g>\n");
+    svg_ << "</g>\n";
   }
 
   void legend() {
-    constexpr double bar_px = 220, bar_height_px = 12;
-    svg_.text("<g transform=\"translate(0 ")
-        .number(view_.height_px + 18)
-        .text(")\">\n<linearGradient id=\"scale\">");
-    for (std::size_t k = 0; k < anchors.size(); ++k)
-      svg_.text("<stop offset=\"")
-          .number(static_cast<double>(k) / (anchors.size() - 1))
-          .text("\" stop-color=\"")
-          .color(anchors[k])
-          .text("\"/>");
-    svg_.text("</linearGradient>\n<rect width=\"").number(bar_px).text("\" height=\"").number(bar_height_px);
-    svg_.text("\" fill=\"url(#scale)\"/>\n");
-    const std::array<std::pair<double, std::string_view>, 4> ticks = {
-        {{scale_low, "1/√3"}, {0.7, "0.7"}, {0.85, "0.85"}, {1.0, "≥ 1"}}};
-    for (const auto& [value, label] : ticks) {
-      const double x = (value - scale_low) / (scale_high - scale_low) * bar_px;
-      svg_.text("<text font-size=\"12\" text-anchor=\"")
-          .text(x < 1            ? "start"
-                : x > bar_px - 1 ? "end"
-                                 : "middle")
-          .text("\" x=\"");
-      svg_.number(x).text("\" y=\"").number(bar_height_px + 14).text("\">").text(label).text("</text>\n");
-    }
-    const Spacing& s = spacing_.global;
-    svg_.text("<text x=\"")
-        .number(bar_px + 12)
-        .text("\" y=\"11\">β<tspan font-size=\"10\" dy=\"3\">i</tspan></text>\n");
-    svg_.text("<text text-anchor=\"end\" x=\"")
-        .number(sheet_px())
-        .text("\" y=\"11\">")
-        .number(static_cast<double>(s.n), 0);
-    svg_.text(" points   β = ")
-        .number(s.beta, 4)
-        .text("   r_f = ")
-        .number(s.r_f, 5)
-        .text("   r_c = ")
-        .number(s.r_c, 5);
-    svg_.text("   ρ = ").number(s.rho, 4).text("</text>\n</g>\n");
+    svg_ << "<g fill=\"#222\" transform=\"translate(0 " << view_.height_px + 18 << ")\">\n";
+    color_scale();
+    numbers();
+    svg_ << "</g>\n";
   }
 
+  void color_scale() {
+    svg_ << "<linearGradient id=\"scale\">";
+    for (std::size_t k = 0; k < anchors.size(); ++k)
+      svg_ << "<stop offset=\"" << static_cast<double>(k) / (anchors.size() - 1) << "\" stop-color=\""
+           << anchors[k] << "\"/>";
+    svg_ << "</linearGradient>\n<rect width=\"" << scale_px << "\" height=\"12\" fill=\"url(#scale)\"/>\n";
+    struct Tick {
+      double beta_i;
+      std::string_view label, anchor;
+    };
+    constexpr std::array<Tick, 4> ticks = {
+        {{scale_low, "1/√3", "start"}, {0.7, "0.7", "middle"}, {0.85, "0.85", "middle"}, {1, "≥ 1", "end"}}};
+    for (const Tick& tick : ticks)
+      svg_ << "<text font-size=\"12\" text-anchor=\"" << tick.anchor << "\" x=\""
+           << (tick.beta_i - scale_low) / (scale_high - scale_low) * scale_px << "\" y=\"27\">" << tick.label
+           << "</text>\n";
+    svg_ << "<text x=\"" << scale_px + 10 << "\" y=\"11\">β" << subscript("i") << "</text>\n";
+  }
+
+  void numbers() {
+    const Spacing& s = spacing_.global;
+    const std::string_view gap = "<tspan dx=\"16\">";
+    svg_ << "<text text-anchor=\"end\" x=\"" << sheet_px() << "\" y=\"11\">" << s.n << " points" << gap
+         << "β = " << Significant{s.beta, 4} << "</tspan>" << gap << "r" << subscript("f")
+         << "</tspan> = " << Significant{s.r_f, 4} << gap << "r" << subscript("c")
+         << "</tspan> = " << Significant{s.r_c, 4} << gap << "ρ = " << Significant{s.rho, 4}
+         << "</tspan></text>\n";
+  }
+
+  /// Below the line; the caller's text goes on where the next tspan puts it, so it lifts what follows.
+  static std::string subscript(const char* letter) {
+    return std::string("<tspan font-size=\"10\" dy=\"3\">") + letter +
+           "</tspan><tspan dy=\"-3\">&#8203;</tspan>";
+  }
+
+  static constexpr double scale_px = 220;
+
   const PointSet& points_;
+  const Control& control_;
   Box box_;
   View view_;
   LocalSpacing spacing_;

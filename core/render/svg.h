@@ -21,10 +21,11 @@ struct SvgOptions {
 /// A picture of a point set on a torus as SVG text: samples, cells or edges colored by the local ratio
 /// beta_i, the domain's border, and a legend with the color scale and the numbers beta, r_f, r_c and rho.
 ///
-/// Colors: a scale of even lightness steps from dark blue (1/sqrt(3), as good as can be) to yellow (1 and
-/// above), which color-blind readers can follow. What crosses the border is drawn on both sides. Errors:
-/// those of measure_spacing. Cost: O(n log n), about 200 bytes a point. Determinism: the same bytes on any
-/// number of threads.
+/// Colors: a scale of even lightness steps from dark blue (1/sqrt(3), as good as can be) to amber (1 and
+/// above), which color-blind readers can follow and which shows on white. What crosses the border is drawn on
+/// both sides.
+/// Errors: those of measure_spacing; cancelled, deadline_exceeded. Cost: O(n log n), about 200 bytes a point.
+/// Determinism: the same bytes on any number of threads.
 std::string render_svg(const PointSet& points, const SvgOptions& options, const Control& control);
 
 }  // namespace wellspaced

@@ -1,0 +1,175 @@
+#include "proto/execute.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "core/analyze/spacing.h"
+#include "tests/support/proto_requests.h"
+
+namespace wellspaced {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::read;
+using testing::run;
+
+std::vector<std::string> keys(const nlohmann::ordered_json& object) {
+  std::vector<std::string> out;
+  for (const auto& [key, value] : object.items()) out.push_back(key);
+  return out;
+}
+
+const char* const optimize_400 =
+    R"({"points":{"generate":{"count":400,"seed":3}},"beta":0.9,"max_sweeps":20})";
+
+TEST(Execute, GenerateTellsWhatItMade) {
+  const Result result = run("generate", R"({"count":500,"seed":7,"domain":{"width":2}})");
+  EXPECT_EQ(result.operation, "generate");
+  EXPECT_THAT(keys(result.summary), ElementsAre("n", "method", "parameters", "seed", "version", "domain"));
+  EXPECT_EQ(result.summary["n"], result.points.size());
+  EXPECT_EQ(result.summary["method"], "poisson-disk");
+  EXPECT_EQ(result.summary["parameters"].dump(), R"({"count":500})");
+  EXPECT_EQ(result.summary["seed"], 7u);
+  EXPECT_EQ(result.summary["version"], std::string(version()));
+  EXPECT_EQ(result.summary["domain"].dump(), R"({"type":"torus","width":2.0,"height":1.0})");
+}
+
+TEST(Execute, GeneratorsWithoutRandomnessTellNoSeed) {
+  const Result result = run("generate", R"({"method":"square","count":100,"seed":7})");
+  EXPECT_EQ(result.points.size(), 100u);
+  EXPECT_FALSE(result.summary.contains("seed"));
+}
+
+TEST(Execute, EveryGeneratorMakesAboutWhatItExpects) {
+  for (const Generator& generator : generators()) {
+    const Result result =
+        run("generate", R"({"count":2000,"domain":{"width":2},"method":")" + generator.name + "\"}");
+    EXPECT_NEAR(static_cast<double>(result.points.size()), 2000, 60) << generator.name;
+    EXPECT_EQ(result.summary["method"], generator.name);
+  }
+}
+
+TEST(Execute, OptimizeTellsWhatItReached) {
+  const Result result = run("optimize", optimize_400);
+  EXPECT_THAT(keys(result.summary),
+              ElementsAre("n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_i_max",
+                          "beta_i_mean", "sweeps", "converged", "history", "seed", "version", "domain"));
+  const Spacing spacing = measure_spacing(result.points, Control());
+  EXPECT_EQ(result.summary["n"], result.points.size());
+  EXPECT_EQ(result.summary["parameters"].dump(), R"({"beta":0.9,"max_sweeps":20})");
+  EXPECT_EQ(result.summary["beta"], spacing.beta);
+  EXPECT_EQ(result.summary["r_f"], spacing.r_f);
+  EXPECT_EQ(result.summary["r_c"], spacing.r_c);
+  EXPECT_EQ(result.summary["converged"], spacing.beta <= 0.9);
+  const auto& history = result.summary["history"];
+  ASSERT_EQ(history.size(), result.summary["sweeps"].get<std::size_t>() + 1);
+  double best = history[0][1];
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    EXPECT_EQ(history[k][0], k);
+    EXPECT_NEAR(history[k][1].get<double>(), history[k][2].get<double>() / history[k][3].get<double>(),
+                1e-12);
+    best = std::min(best, history[k][1].get<double>());
+  }
+  EXPECT_NEAR(spacing.beta, best, 1e-12);
+}
+
+TEST(Execute, OptimizeSaysWhenItMissedItsTarget) {
+  const Result result = run("optimize", R"({"points":{"generate":{"count":300}},"beta":0.6,"max_sweeps":2})");
+  EXPECT_EQ(result.summary["converged"], false);
+  EXPECT_EQ(result.summary["sweeps"], 2);
+  EXPECT_LT(result.summary["beta"].get<double>(), 1);
+}
+
+TEST(Execute, AnalyzeTellsOneObjectAMeasure) {
+  const Result result =
+      run("analyze", R"({"points":{"generate":{"method":"square","count":100}},"measures":["spacing"]})");
+  EXPECT_THAT(keys(result.summary), ElementsAre("n", "spacing", "version", "domain"));
+  EXPECT_EQ(result.summary["n"], 100);
+  EXPECT_NEAR(result.summary["spacing"]["beta"].get<double>(), 1 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(result.summary["spacing"]["r_f"].get<double>(), 0.1, 1e-12);
+}
+
+TEST(Execute, AnalyzeTellsTheSeedOfWhatItGenerated) {
+  EXPECT_EQ(run("analyze", R"({"points":{"generate":{"count":100,"seed":5}}})").summary["seed"], 5u);
+  EXPECT_FALSE(run("analyze", R"({"points":{"job":"known"}})").summary.contains("seed"));
+}
+
+TEST(Execute, KeepsTheWantedPicture) {
+  EXPECT_EQ(run("generate", R"({"count":100,"picture":"delaunay"})").picture, "delaunay");
+  EXPECT_EQ(run("generate", R"({"count":100})").picture, "");
+}
+
+TEST(Execute, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const std::pair<const char*, std::string> requests[] = {
+      {"generate", R"({"count":3000,"seed":1})"},
+      {"optimize", optimize_400},
+      {"analyze", R"({"points":{"generate":{"count":3000,"seed":1}}})"},
+  };
+  for (const auto& [operation, body] : requests) {
+    const std::string one = store_result(run(operation, body, 1));
+    EXPECT_TRUE(one == store_result(run(operation, body, 2))) << operation;
+    EXPECT_TRUE(one == store_result(run(operation, body, 5))) << operation;
+  }
+}
+
+TEST(Execute, SeesNoDifferenceBetweenGeneratedAndUploadedPoints) {
+  const Result made = run("generate", R"({"count":300,"seed":2})");
+  const std::string bytes = encode_result(made, Format::npy, "", {}, Control()).bytes;
+  Control control;
+  const Result uploaded = execute(
+      testing::read_table("optimize", "application/x-npy", bytes, {{"beta", "0.9"}, {"max_sweeps", "3"}}),
+      control);
+  const Result chained =
+      run("optimize", R"({"points":{"generate":{"count":300,"seed":2}},"beta":0.9,"max_sweeps":3})");
+  EXPECT_EQ(uploaded.points.coordinates, chained.points.coordinates);
+}
+
+TEST(Execute, PointsToWhatItCouldNotWorkOn) {
+  // Poisson-disk sampling leaves room for one or two points only, which nobody knows beforehand.
+  try {
+    run("analyze", R"({"points":{"generate":{"radius":0.47}}})");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(ErrorCode::degenerate_input));
+    EXPECT_EQ(error.where(), "/points");
+  }
+}
+
+/// Remembers what it was told.
+class Witness final : public Control {
+ public:
+  std::vector<Progress> seen;
+
+ private:
+  void on_progress(const Progress& progress) override { seen.push_back(progress); }
+};
+
+TEST(Execute, ReportsProgressThatNeverFallsAndEndsAtOne) {
+  for (const char* operation : {"optimize", "analyze"}) {
+    Witness witness;
+    execute(read(operation, R"({"points":{"generate":{"count":2000}}})"), witness);
+    ASSERT_FALSE(witness.seen.empty()) << operation;
+    for (std::size_t k = 1; k < witness.seen.size(); ++k)
+      EXPECT_LE(witness.seen[k - 1].fraction, witness.seen[k].fraction) << operation;
+    EXPECT_EQ(witness.seen.back().fraction, 1) << operation;
+  }
+}
+
+TEST(Execute, StopsWhenItIsCancelled) {
+  for (const char* operation : {"optimize", "analyze"}) {
+    Control control;
+    control.cancel();
+    try {
+      execute(read(operation, R"({"points":{"generate":{"count":2000}}})"), control);
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(ErrorCode::cancelled));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wellspaced

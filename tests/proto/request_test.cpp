@@ -1,0 +1,393 @@
+#include "proto/request.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "proto/formats/npy.h"
+#include "tests/support/proto_requests.h"
+
+namespace wellspaced {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Query;
+using testing::read;
+using testing::read_table;
+
+/// A refused request: what came, and the error that must come of it.
+struct Refusal {
+  const char* operation;
+  std::string body;
+  ErrorCode code;
+  const char* where;
+  const char* part;  ///< of the message
+};
+
+template <class Action>
+void expect_refusal(const Action& action, const Refusal& r) {
+  SCOPED_TRACE(std::string(r.operation) + " " + r.body.substr(0, 200));
+  try {
+    action();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(r.code)) << error.what();
+    EXPECT_EQ(error.where(), r.where) << error.what();
+    EXPECT_THAT(error.what(), HasSubstr(r.part));
+  }
+}
+
+void expect_refusals(const std::vector<Refusal>& refusals) {
+  for (const Refusal& r : refusals) expect_refusal([&] { read(r.operation, r.body); }, r);
+}
+
+constexpr auto invalid = ErrorCode::invalid_parameters;
+
+TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
+  expect_refusals({
+      {"generate", R"({"count":10,"metod":"square"})", invalid, "/metod",
+       "known here are: count, domain, method"},
+      {"generate", R"({"cuont":10})", invalid, "/cuont", "count"},
+      {"generate", R"({"method":"dart","count":10})", invalid, "/method",
+       "poisson-disk, white-noise, jittered"},
+      {"generate", R"({"method":"white-noise","radius":0.1})", invalid, "/radius", "known here are: count"},
+      {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type", "torus"},
+      {"generate", R"({"count":10,"domain":{"depth":1}})", invalid, "/domain/depth", "height, type, width"},
+      {"generate", R"({"count":10,"picture":"photo"})", invalid, "/picture", "voronoi, delaunay, points"},
+      {"optimize", R"({"points":{"generate":{"count":10}},"betta":0.8})", invalid, "/betta", "beta"},
+      {"optimize", R"({"points":{"generate":{"count":10}},"method":"magic"})", invalid, "/method",
+       "opt-beta-local"},
+      {"optimize", R"({"points":{"generate":{"count":10,"method":"x"}}})", invalid, "/points/generate/method",
+       "square"},
+      {"optimize", R"({"points":{"generate":{"count":10,"beta":1}}})", invalid, "/points/generate/beta",
+       "count"},
+      {"optimize", R"({"points":{"generate":{"count":10},"a/b~":1}})", invalid, "/points/a~1b~0", "generate"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"method":"spacing"})", invalid, "/method",
+       "measures"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"measures":["spacing","taste"]})", invalid,
+       "/measures/1", "spacing"},
+  });
+}
+
+TEST(ReadRequest, RefusesWrongTypesAndSaysWhatWasFound) {
+  expect_refusals({
+      {"generate", "[]", invalid, "", "expected an object, found an array"},
+      {"generate", "null", invalid, "", "found null"},
+      {"generate", R"({"count":"10"})", invalid, "/count", "expected a whole number, found a string"},
+      {"generate", R"({"count":[10]})", invalid, "/count", "found an array"},
+      {"generate", R"({"count":true})", invalid, "/count", "found true"},
+      {"generate", R"({"radius":{}})", invalid, "/radius", "expected a number, found an object"},
+      {"generate", R"({"count":10,"method":5})", invalid, "/method", "expected a string, found the number 5"},
+      {"generate", R"({"count":10,"seed":"1"})", invalid, "/seed", "found a string"},
+      {"generate", R"({"count":10,"seed":-1})", invalid, "/seed", "from 0 on, found the number -1"},
+      {"generate", R"({"count":10,"seed":0.5})", invalid, "/seed", "found the number 0.5"},
+      {"generate", R"({"count":10,"seed":18446744073709551616})", invalid, "/seed", "whole number"},
+      {"generate", R"({"count":10,"domain":"torus"})", invalid, "/domain",
+       "expected an object, found a string"},
+      {"generate", R"({"count":10,"domain":{"width":"1"}})", invalid, "/domain/width", "found a string"},
+      {"generate", R"({"count":10,"picture":1})", invalid, "/picture", "expected a string"},
+      {"optimize", R"({"points":5})", invalid, "/points", "expected an object, found the number 5"},
+      {"optimize", R"({"points":{"generate":[]}})", invalid, "/points/generate", "found an array"},
+      {"optimize", R"({"points":{"job":7}})", invalid, "/points/job", "expected a string"},
+      {"optimize", R"({"points":{"points":7}})", invalid, "/points/points", "expected an array of points"},
+      {"optimize", R"({"points":{"generate":{"count":10}},"beta":"0.8"})", invalid, "/beta",
+       "found a string"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"measures":"spacing"})", invalid, "/measures",
+       "expected an array"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"measures":[]})", invalid, "/measures",
+       "one or more"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"measures":[1]})", invalid, "/measures/0",
+       "expected a string"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"measures":["spacing","spacing"]})", invalid,
+       "/measures/1", "twice"},
+  });
+}
+
+TEST(ReadRequest, RefusesCountsOutsideTheirRange) {
+  expect_refusals({
+      {"generate", R"({"count":0})", invalid, "/count", "must be a whole number of at least 1; found 0"},
+      {"generate", R"({"count":-3})", invalid, "/count", "of at least 1; found -3"},
+      {"generate", R"({"count":2.5})", invalid, "/count", "whole number of at least 1; found 2.5"},
+      {"generate", R"({"count":1e300})", invalid, "/count", "up to 1000000000000000; found 1e+300"},
+      {"generate", R"({"count":10000001})", ErrorCode::too_large, "/count",
+       "10000001 points are asked for, but the limit here is 10000000"},
+      {"generate", R"({"method":"square","count":20000000})", ErrorCode::too_large, "/count",
+       "about 20000000 points"},
+      {"generate", R"({"radius":1e-5})", ErrorCode::too_large, "/radius", "6966000000 points"},
+      {"generate", R"({"radius":1e-300})", ErrorCode::too_large, "/radius", "Countless points"},
+      {"optimize", R"({"points":{"generate":{"count":10000001}}})", ErrorCode::too_large,
+       "/points/generate/count", "limit"},
+      {"analyze", R"({"points":{"generate":{"radius":1e-5}}})", ErrorCode::too_large,
+       "/points/generate/radius", "limit"},
+      {"generate", "{}", invalid, "/count", "give count or radius"},
+      {"generate", R"({"method":"square"})", invalid, "/count", "the field is missing"},
+      {"generate", R"({"count":null})", invalid, "/count", "give count or radius"},
+      {"generate", R"({"count":10,"radius":0.1})", invalid, "/radius", "not both"},
+      {"optimize", R"({"points":{"generate":{}}})", invalid, "/points/generate/count",
+       "give count or radius"},
+      {"optimize", R"({"points":{"generate":{"count":10,"radius":0.1}}})", invalid, "/points/generate/radius",
+       "not both"},
+  });
+}
+
+TEST(ReadRequest, RefusesLengthsThatNoTorusHas) {
+  expect_refusals({
+      {"generate", R"({"radius":0})", invalid, "/radius", "greater than 0"},
+      {"generate", R"({"radius":-0.1})", invalid, "/radius", "greater than 0; found -0.1"},
+      {"generate", R"({"radius":0.8})", ErrorCode::infeasible, "/radius", "choose a smaller one"},
+      {"optimize", R"({"points":{"generate":{"radius":0.8}}})", ErrorCode::infeasible,
+       "/points/generate/radius", "smaller"},
+      {"generate", R"({"count":10,"domain":{"width":0}})", invalid, "/domain/width", "from 1e-6 to 1e6"},
+      {"generate", R"({"count":10,"domain":{"height":-1}})", invalid, "/domain/height", "from 1e-6 to 1e6"},
+      {"generate", R"({"count":10,"domain":{"width":1e7}})", invalid, "/domain/width", "from 1e-6 to 1e6"},
+      {"generate", R"({"count":10,"domain":{"width":2000}})", invalid, "/domain/height", "less elongated"},
+      {"analyze", R"({"points":[[0,0],[0.5,0],[0,0.5]],"domain":{"width":0}})", invalid, "/domain/width",
+       "side"},
+      {"analyze", R"({"points":{"points":[[0,0],[0.5,0],[0,0.5]],"domain":{"width":0}}})", invalid,
+       "/points/domain/width", "side"},
+  });
+}
+
+TEST(ReadRequest, RefusesOptimizerParametersOutsideTheirRange) {
+  const auto with = [](const std::string& field) {
+    return R"({"points":{"generate":{"count":10}},)" + field + "}";
+  };
+  expect_refusals({
+      {"optimize", with(R"("beta":0.577)"), ErrorCode::infeasible, "/beta", "below 1/sqrt(3)"},
+      {"optimize", with(R"("beta":0)"), ErrorCode::infeasible, "/beta", "found 0"},
+      {"optimize", with(R"("beta":-1)"), ErrorCode::infeasible, "/beta", "triangular lattice"},
+      {"optimize", with(R"("beta":1)"), invalid, "/beta", "must be a number in [0.577"},
+      {"optimize", with(R"("beta":7.5)"), invalid, "/beta", "1); found 7.5"},
+      {"optimize", with(R"("max_sweeps":0)"), invalid, "/max_sweeps", "in [1, 10000]"},
+      {"optimize", with(R"("max_sweeps":10001)"), invalid, "/max_sweeps", "in [1, 10000]"},
+      {"optimize", with(R"("max_sweeps":1.5)"), invalid, "/max_sweeps", "whole number"},
+      {"optimize", with(R"("damping":0)"), invalid, "/damping", "in (0, 1]"},
+      {"optimize", with(R"("damping":1.01)"), invalid, "/damping", "in (0, 1]; found 1.01"},
+  });
+}
+
+TEST(ReadRequest, RefusesInlinePointsThatNoMethodCanWorkWith) {
+  for (const char* operation : {"optimize", "analyze"})
+    expect_refusals({
+        {operation, "{}", invalid, "/points", "the field is missing"},
+        {operation, R"({"points":null})", invalid, "/points", "the field is missing"},
+        {operation, R"({"points":[]})", ErrorCode::degenerate_input, "/points", "0 points; at least 3"},
+        {operation, R"({"points":[[0,0],[0.5,0.5]]})", ErrorCode::degenerate_input, "/points",
+         "2 points; at least 3"},
+        {operation, R"({"points":{"points":[[0,0]]}})", ErrorCode::degenerate_input, "/points/points",
+         "at least 3"},
+        {operation, R"({"points":{"generate":{"count":2}}})", ErrorCode::degenerate_input, "/points/generate",
+         "at least 3"},
+        {operation, R"({"points":[[0,0],[0.5,1],[0.2,0.2]]})", invalid, "/points/1", "outside"},
+        {operation, R"({"points":[[0,0],[0.5,0.5],[-0.1,0.2]]})", invalid, "/points/2", "outside"},
+        {operation, R"({"points":{"points":[[0,0],[2,0.5],[0.1,0.2]]}})", invalid, "/points/points/1",
+         "outside"},
+        {operation, R"({"points":[[0,0],[0.5,0.5],[0,0]]})", ErrorCode::degenerate_input, "/points/2",
+         "repeats point 0"},
+        {operation, R"({"points":[[0,0,0],[0.5,0.5,0],[0,0.5,0]]})", invalid, "/points",
+         "have 2 coordinates; these have 3"},
+        {operation, R"({"points":[[0,0],[0.5],[0,0.5]]})", invalid, "/points/1", ""},
+        {operation, R"({"points":[[0,0],["a",0],[0,0.5]]})", invalid, "/points/1/0", ""},
+        {operation, R"({"points":[[0,0],[1e999,0],[0,0.5]]})", invalid, "/points/1/0", ""},
+        {operation, R"({"points":[[0,0],[NaN,0],[0,0.5]]})", ErrorCode::malformed_request, "", "line 1"},
+    });
+}
+
+TEST(ReadRequest, RefusesPointsFromNoneOrSeveralSources) {
+  expect_refusals({
+      {"analyze", R"({"points":{}})", invalid, "/points", "exactly one of generate, job or points"},
+      {"analyze", R"({"points":{"job":"known","generate":{"count":10}}})", invalid, "/points", "exactly one"},
+      {"analyze", R"({"points":{"job":"known","domain":{}}})", invalid, "/points/domain", "unknown field"},
+      {"analyze", R"({"points":{"job":"gone"}})", ErrorCode::no_such_job, "/points/job", "no such job"},
+      {"analyze", R"({"points":{"generate":{"count":10}},"domain":{}})", invalid, "/domain",
+       "bring their own domain"},
+      {"analyze", R"({"points":{"job":"known"},"domain":{}})", invalid, "/domain", "bring their own domain"},
+      {"generate", R"({"count":10,"points":[[0,0],[0.5,0.5],[0.1,0.1]]})", invalid, "/points",
+       "unknown field"},
+  });
+}
+
+TEST(ReadRequest, RefusesPointsAboveTheLimitWhereverTheyComeFrom) {
+  Limits limits;
+  limits.analyze_points = 3;
+  limits.generate_points = 2;
+  const std::string csv = "0,0\n0.5,0\n0,0.5\n0.5,0.5\n";
+  expect_refusal([&] { read("analyze", R"({"points":[[0,0],[0.5,0],[0,0.5],[0.5,0.5]]})", limits); },
+                 {"analyze", "inline", ErrorCode::too_large, "/points", "limit"});
+  expect_refusal([&] { read_table("analyze", "text/csv", csv, {}, limits); },
+                 {"analyze", "csv", ErrorCode::too_large, "/points", "limit"});
+  expect_refusal([&] { read("generate", R"({"count":3})", limits); },
+                 {"generate", "count", ErrorCode::too_large, "/count", "limit here is 2"});
+  EXPECT_NO_THROW(read("analyze", R"({"points":{"generate":{"count":3}}})", limits));
+  EXPECT_NO_THROW(read("generate", R"({"count":2})", limits));
+}
+
+TEST(ReadRequest, RefusesJobsThatNeedMoreMemoryThanTheLimit) {
+  Limits limits;
+  limits.memory_bytes = 100 << 20;
+  EXPECT_NO_THROW(read("generate", R"({"count":10000})", limits));
+  expect_refusal(
+      [&] { read("generate", R"({"count":5000000})", limits); },
+      {"generate", "5M", ErrorCode::too_large, "", "the limit here is 100 MiB; ask for fewer points"});
+}
+
+TEST(ReadRequest, RefusesBodiesItCantReadAndNamesTheWayOut) {
+  expect_refusals({
+      {"generate", "", ErrorCode::malformed_request, "", "line 1"},
+      {"generate", "{\"count\":10", ErrorCode::malformed_request, "", ""},
+      {"generate", "count=10", ErrorCode::malformed_request, "", ""},
+      {"generate", "{\"count\":10,\"count\":11}", invalid, "/count", ""},
+  });
+  const auto typed = [](const char* type) { return [type] { read_table("analyze", type, "0,0\n"); }; };
+  const Refusal unsupported{"analyze", "", ErrorCode::unsupported_media_type, "", "send application/json"};
+  for (const char* type : {"", "application/x-www-form-urlencoded", "image/svg+xml", "text/plain", "json"})
+    expect_refusal(typed(type), unsupported);
+  expect_refusal([] { read_table("generate", "text/csv", "0,0\n"); },
+                 {"generate", "csv", ErrorCode::unsupported_media_type, "", "generate takes no points"});
+}
+
+TEST(ReadRequest, RefusesParametersInTheQueryOfAJsonRequest) {
+  const auto action = [] { read_table("generate", "application/json", R"({"count":10})", {{"seed", "1"}}); };
+  expect_refusal(action, {"generate", "query", invalid, "/seed", "parameters go into the body"});
+}
+
+std::string npy(std::vector<double> values, std::size_t columns = 2) {
+  return write_npy(values.data(), values.size() / columns, columns);
+}
+
+TEST(ReadRequest, RefusesTablesThatNoMethodCanWorkWith) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  struct {
+    const char* type;
+    std::string body;
+    ErrorCode code;
+    const char *where, *part;
+  } const tables[] = {
+      {"text/csv", "0,0\nnan,0.5\n0.5,0\n", invalid, "/points/1/0", "NaN"},
+      {"text/csv", "0,0\n0.5,inf\n0.5,0\n", invalid, "/points/1/1", "infinite"},
+      {"text/csv", "0,0\n0.5,x\n", invalid, "/points/1/1", "line 2"},
+      {"text/csv", "0,0\n1.5,0\n0.5,0\n", invalid, "/points/1", "outside"},
+      {"text/csv", "0,0\n0.5,0\n0.5,0\n", ErrorCode::degenerate_input, "/points/2", "repeats point 1"},
+      {"text/csv", "0,0\n0.5,0\n", ErrorCode::degenerate_input, "/points", "at least 3"},
+      {"text/csv", "", ErrorCode::degenerate_input, "/points", "at least 3"},
+      {"text/csv", "0,0,0\n0.5,0,0\n0,0.5,0\n", invalid, "/points", "have 2 coordinates; these have 3"},
+      {"text/csv", "1\n2\n3\n", invalid, "/points/0", ""},
+      {"application/x-npy", npy({0, 0, nan, 0.5, 0.5, 0}), invalid, "/points/1/0", "NaN"},
+      {"application/x-npy", npy({0, 0, 0.5, -inf, 0.5, 0}), invalid, "/points/1/1", "infinite"},
+      {"application/x-npy", npy({0, 0, 0.5, 1, 0.5, 0}), invalid, "/points/1", "outside"},
+      {"application/x-npy", npy({0, 0, 0.5, 0, 0, 0}), ErrorCode::degenerate_input, "/points/2",
+       "repeats point 0"},
+      {"application/x-npy", npy({0, 0, 0.5, 0}), ErrorCode::degenerate_input, "/points", "at least 3"},
+      {"application/x-npy", npy({0, 0, 0, 0.5, 0, 0, 0, 0.5, 0}, 3), invalid, "/points", "these have 3"},
+      {"application/x-npy", npy({0, 0, 0.5, 0, 0, 0.5}).substr(0, 150), ErrorCode::malformed_request,
+       "/points", "truncated"},
+      {"application/x-npy", "0,0\n", ErrorCode::malformed_request, "/points", "np.save"},
+  };
+  for (const auto& t : tables)
+    expect_refusal([&] { read_table("analyze", t.type, t.body); },
+                   {"analyze", t.body, t.code, t.where, t.part});
+}
+
+TEST(ReadRequest, RefusesQueriesThatTheirFieldsDontAllow) {
+  struct {
+    Query query;
+    const char *where, *part;
+  } const queries[] = {
+      {{{"beta", "high"}}, "/beta", "expected a number, found a string"},
+      {{{"beta", "0.8"}, {"beta", "0.9"}}, "/beta", "twice"},
+      {{{"domain.width", "2"}, {"domain.width", "2"}}, "/domain/width", "twice"},
+      {{{"domain.width", "2"}, {"domain", "torus"}}, "/domain", "twice"},
+      {{{"domain", "torus"}, {"domain.width", "2"}}, "/domain/width", "twice"},
+      {{{"domain", "torus"}}, "/domain", "expected an object"},
+      {{{"domain.depth", "2"}}, "/domain/depth", "known here are: height, type, width"},
+      {{{"domain.width", "0"}}, "/domain/width", "side"},
+      {{{"domain.width", ""}}, "/domain/width", "found a string"},
+      {{{"points", "[[0,0]]"}}, "/points", "the points are the body"},
+      {{{"points.generate.count", "9"}}, "/points", "the points are the body"},
+      {{{"gamma", "2"}}, "/gamma", "known here are: beta"},
+      {{{"", "2"}}, "/", "unknown field"},
+      {{{".", "2"}}, "/", "unknown field"},
+      {{{"method", "magic"}}, "/method", "opt-beta-local"},
+      {{{"beta", "1e999"}}, "/beta", "expected a number"},
+      {{{"beta", "[0.8]"}}, "/beta", "found a string"},
+  };
+  for (const auto& q : queries)
+    expect_refusal([&] { read_table("optimize", "text/csv", "0,0\n0.5,0\n0,0.5\n", q.query); },
+                   {"optimize", ::testing::PrintToString(q.query), invalid, q.where, q.part});
+}
+
+const GenerateRequest& generate_of(const Request& request) {
+  return std::get<GenerateRequest>(request.operation);
+}
+
+TEST(ReadRequest, FillsInTheDefaults) {
+  const Request request = read("generate", R"({"count":1e3})");
+  const GenerateRequest& generate = generate_of(request);
+  EXPECT_EQ(generate.method->name, "poisson-disk");
+  EXPECT_EQ(generate.seed, 0u);
+  EXPECT_EQ(generate.domain->area(), 1);
+  EXPECT_THAT(generate.arguments, ElementsAre(std::pair<const std::string, double>("count", 1000)));
+  EXPECT_EQ(request.picture, "");
+  const auto optimize = read("optimize", R"({"points":{"generate":{"count":10}}})");
+  EXPECT_EQ(std::get<OptimizeRequest>(optimize.operation).method->name, "opt-beta-local");
+  EXPECT_TRUE(std::get<OptimizeRequest>(optimize.operation).arguments.empty());
+  const auto analyze = read("analyze", R"({"points":{"generate":{"count":10}}})");
+  ASSERT_EQ(std::get<AnalyzeRequest>(analyze.operation).measures.size(), 1u);
+  EXPECT_EQ(std::get<AnalyzeRequest>(analyze.operation).measures[0]->name, "spacing");
+}
+
+TEST(ReadRequest, ReadsSeedsOf64Bits) {
+  EXPECT_EQ(generate_of(read("generate", R"({"count":9,"seed":18446744073709551615})")).seed,
+            18446744073709551615u);
+  EXPECT_EQ(generate_of(read("generate", R"({"count":9,"seed":4e9})")).seed, 4000000000u);
+  EXPECT_EQ(generate_of(read("generate", R"({"count":9,"seed":-0})")).seed, 0u);
+}
+
+TEST(ReadRequest, ReadsTheSamePointsFromEveryFormat) {
+  const std::vector<double> values = {0, 0, 1.5, 0.25, 0.1, 0.5};
+  const Query query = {{"domain.width", "2"}, {"domain.type", "torus"}, {"measures", "spacing"}};
+  const Request requests[] = {
+      read("analyze",
+           R"({"points":[[0,0],[1.5,0.25],[0.1,0.5]],"domain":{"width":2},"measures":["spacing"]})"),
+      read("analyze", R"({"points":{"points":[[0,0],[1.5,0.25],[0.1,0.5]],"domain":{"width":2}}})"),
+      read_table("analyze", "application/x-npy", npy(values), query),
+      read_table("analyze", "Text/CSV; charset=utf-8", "x,y\n0,0\n1.5,0.25\n0.1,0.5\n", query),
+  };
+  for (const Request& request : requests) {
+    const auto& points = std::get<PointSet>(std::get<AnalyzeRequest>(request.operation).points);
+    EXPECT_EQ(points.coordinates, values);
+    EXPECT_EQ(points.domain->box().size.x, 2);
+    EXPECT_EQ(expected_points(request), 3);
+  }
+}
+
+TEST(ReadRequest, TakesPointsAndDomainFromAJob) {
+  const Request request = read("analyze", R"({"points":{"job":"known"}})");
+  const auto& points = std::get<PointSet>(std::get<AnalyzeRequest>(request.operation).points);
+  EXPECT_EQ(points.coordinates, testing::points_of_a_job().coordinates);
+  EXPECT_EQ(points.domain->box().size.x, 2);
+}
+
+TEST(ExpectedCost, GrowsWithTheCountAndWithTheSweeps) {
+  const auto seconds = [](const char* operation, const std::string& body) {
+    return expected_cost(read(operation, body)).seconds;
+  };
+  const auto optimize = [&](int count, int sweeps) {
+    return seconds("optimize", R"({"points":{"generate":{"count":)" + std::to_string(count) +
+                                   R"(}},"max_sweeps":)" + std::to_string(sweeps) + "}");
+  };
+  EXPECT_NEAR(optimize(100000, 100) / optimize(1000, 100), 100, 1e-6);
+  EXPECT_GT(optimize(1000, 1000), 5 * optimize(1000, 100));
+  EXPECT_GT(seconds("generate", R"({"radius":0.001})"), 50 * seconds("generate", R"({"radius":0.01})"));
+  EXPECT_GT(seconds("analyze", R"({"points":{"generate":{"count":1000}}})"),
+            seconds("generate", R"({"count":1000})"));
+  EXPECT_LT(optimize(10000, 100), Limits{}.sync_seconds);  // the README's example is answered at once
+  EXPECT_GT(optimize(1000000, 100), Limits{}.sync_seconds);
+}
+
+}  // namespace
+}  // namespace wellspaced
