@@ -1,5 +1,6 @@
 #include "core/registry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -76,6 +77,16 @@ PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, R
   return lattice(torus_of(domain), count_of(a), control);
 }
 
+/// The conflict radius of about `count` points, at most the largest one that a sampling can have. Where it is
+/// above the shorter side, points follow each other as on a line, n r = 0.7476 of its length (Renyi's parking
+/// constant).
+double radius_of_count(const Torus& torus, std::uint64_t count) {
+  constexpr double parking = 0.7476;
+  const double on_line = parking * std::max(torus.width(), torus.height()) / static_cast<double>(count);
+  const double farthest = norm(torus.box().size) / 2;
+  return std::min(std::max(poisson_disk_radius(torus.area(), count), on_line), farthest);
+}
+
 const std::vector<Generator> generator_rows = {
     {{"poisson-disk",
       "Maximal Poisson-disk sampling",
@@ -85,12 +96,9 @@ const std::vector<Generator> generator_rows = {
        radius()}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
-       const auto r = argument(a, "radius");
-       const double r_f = r ? *r : poisson_disk_radius(domain->area(), count_of(a));
        const auto torus = torus_of(domain);
-       // A small count may ask for more than half the diagonal, where one sample is all there is room for.
-       const double most = norm(torus->box().size) / 2;
-       return poisson_disk(torus, {r ? r_f : std::min(r_f, most)}, rng, control);
+       const auto r = argument(a, "radius");
+       return poisson_disk(torus, {r ? *r : radius_of_count(*torus, count_of(a))}, rng, control);
      },
      [](const Domain& domain, const Arguments& a) {
        const auto r = argument(a, "radius");

@@ -1,21 +1,19 @@
 #include "proto/openapi.h"
 
+#include <iterator>
+#include <set>
+#include <string>
 #include <vector>
 
+#include "core/registry.h"
 #include "proto/openapi_schemas.h"
+#include "proto/operations.h"
 #include "proto/result.h"
 
 namespace wellspaced {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json problems(const std::vector<int>& statuses) {
-  ordered_json out;
-  for (const int status : statuses)
-    out[std::to_string(status)] = {{"$ref", "#/components/responses/Problem" + std::to_string(status)}};
-  return out;
-}
 
 struct StatusText {
   int status;
@@ -31,25 +29,42 @@ constexpr StatusText problem_statuses[] = {
     {410, "result-expired"},
     {411, "length-required"},
     {413, "payload-too-large"},
+    {414, "target-too-long"},
     {415, "unsupported-media-type"},
     {416, "range-not-satisfiable"},
+    {417, "expectation-failed"},
     {422,
      "invalid-parameters, infeasible, degenerate-input, too-large or too-large-for-sync; `errors` names the "
      "field"},
     {429, "too-many-jobs (with Retry-After)"},
+    {431, "header-too-large"},
     {500, "internal: only the request id is told"},
     {503, "overloaded, draining or storage-unavailable (with Retry-After)"},
     {504, "deadline-exceeded"},
+    {505, "version-not-supported: HTTP/1.0 or 1.1 is spoken here"},
     {507, "storage-full"},
 };
+
+/// What any request may meet before its route is looked at.
+constexpr int statuses_of_any_request[] = {400, 408, 414, 417, 431, 503, 505};
+
+ordered_json problems(const std::vector<int>& statuses) {
+  std::set<int> all(statuses.begin(), statuses.end());
+  all.insert(std::begin(statuses_of_any_request), std::end(statuses_of_any_request));
+  ordered_json out;
+  for (const int status : all)
+    out[std::to_string(status)] = {{"$ref", "#/components/responses/Problem" + std::to_string(status)}};
+  return out;
+}
 
 ordered_json header(const char* description) {
   return {{"description", description}, {"schema", {{"type", "string"}}}};
 }
 
-ordered_json parameter(const char* name, const char* in, const char* description, ordered_json schema) {
+ordered_json parameter(const std::string& name, const std::string& in, const std::string& description,
+                       ordered_json schema) {
   ordered_json out = {{"name", name}, {"in", in}, {"description", description}};
-  if (std::string(in) == "path") out["required"] = true;
+  if (in == "path") out["required"] = true;
   out["schema"] = std::move(schema);
   return out;
 }
@@ -63,6 +78,10 @@ ordered_json format_parameters(std::string_view operation) {
                     {{"type", "string"}, {"enum", picture_names}})};
 }
 
+ordered_json binary_schema() {
+  return {{"type", "string"}, {"contentMediaType", "application/octet-stream"}};
+}
+
 /// A result in all formats of its operation.
 ordered_json result_content(std::string_view operation, const std::string& schema) {
   ordered_json content;
@@ -70,7 +89,7 @@ ordered_json result_content(std::string_view operation, const std::string& schem
     const bool text = format == Format::csv || format == Format::svg;
     ordered_json of = format == Format::json ? schema_reference(schema)
                       : text                 ? ordered_json{{"type", "string"}}
-                             : ordered_json{{"type", "string"}, {"contentEncoding", "binary"}};
+                                             : binary_schema();
     content[std::string(media_type_of(format))] = {{"schema", std::move(of)}};
   }
   return content;
@@ -83,20 +102,50 @@ ordered_json example_of(const std::string& operation) {
   return {{"points", {{"generate", generate}}}, {"method", "opt-beta-local"}, {"beta", 0.85}};
 }
 
-ordered_json operation_path(const std::string& name, const std::string& summary) {
-  const std::string camel =
-      static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))) + name.substr(1);
-  ordered_json body = {
-      {"application/json", {{"schema", schema_reference(camel + "Request")}, {"example", example_of(name)}}}};
-  if (name != "generate") {
-    body["application/x-npy"] = {{"schema", {{"type", "string"}, {"contentEncoding", "binary"}}}};
-    body["text/csv"] = {{"schema", {{"type", "string"}}}};
+/// GenerateRequest, GenerateResult: the schemas of an operation.
+std::string schema_name(const std::string& operation, const char* ending) {
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(operation[0]))) + operation.substr(1) +
+         ending;
+}
+
+ordered_json request_body(const std::string& operation) {
+  ordered_json content = {{"application/json",
+                           {{"schema", schema_reference(schema_name(operation, "Request"))},
+                            {"example", example_of(operation)}}}};
+  if (operation != "generate") {
+    content["application/x-npy"] = {{"schema", binary_schema()}};
+    content["text/csv"] = {{"schema", {{"type", "string"}}}, {"example", "x,y\n0.1,0.2\n0.7,0.3\n0.4,0.8\n"}};
   }
-  ordered_json parameters = format_parameters(name);
-  parameters.push_back(
-      parameter("Prefer", "header",
-                "respond-async: 202 at once; respond-async, wait=5: 200 if done within 5 s, else 202",
-                {{"type", "string"}}));
+  return {{"required", true}, {"content", std::move(content)}};
+}
+
+/// What goes into the query when the body is a table of points, from the schemas of the same JSON request.
+void add_table_parameters(ordered_json& parameters, const std::string& operation) {
+  const std::string where = " (with points as npy or csv in the body; else a field of the body)";
+  const auto add = [&](const std::string& name, ordered_json schema) {
+    std::string description = schema.value("description", name);
+    schema.erase("description");
+    parameters.push_back(parameter(name, "query", description + where, std::move(schema)));
+  };
+  if (operation == "optimize") {
+    ordered_json names = ordered_json::array();
+    std::set<std::string> seen;
+    for (const Optimizer& method : optimizers()) names.push_back(method.name);
+    add("method", {{"type", "string"}, {"enum", names}, {"default", names.front()}});
+    for (const Optimizer& method : optimizers())
+      for (const Parameter& p : method.parameters)
+        if (seen.insert(p.name).second) add(p.name, parameter_schema(p));
+  } else {
+    ordered_json names = openapi_schemas()["AnalyzeRequest"]["properties"]["measures"];
+    add("measures", std::move(names));
+    parameters.back()["style"] = "form";
+    parameters.back()["explode"] = false;
+  }
+  const ordered_json domain = openapi_schemas()["Domain"]["properties"];
+  for (const auto& [name, schema] : domain.items()) add("domain." + name, schema);
+}
+
+ordered_json run_responses(const std::string& operation) {
   ordered_json responses;
   responses["200"] = {
       {"description", "The result"},
@@ -105,24 +154,32 @@ ordered_json operation_path(const std::string& name, const std::string& summary)
         {"Wellspaced-Summary",
          header(
              "for formats without a summary of their own: the JSON result without its arrays, one line")}}},
-      {"content", result_content(name, camel + "Result")}};
+      {"content", result_content(operation, schema_name(operation, "Result"))}};
   responses["202"] = {{"description", "The job is on disk; its result can be fetched later"},
-                      {"headers", {{"Location", header("the job")}, {"Retry-After", header("seconds")}}},
+                      {"headers",
+                       {{"Location", header("the job")},
+                        {"Retry-After", header("seconds")},
+                        {"Preference-Applied", header("respond-async")}}},
                       {"content", {{"application/json", {{"schema", schema_reference("Job")}}}}}};
-  responses.update(problems({400, 404, 406, 408, 409, 410, 411, 413, 415, 422, 429, 500, 503, 504, 507}));
-  std::string description = "The same request gives the same bytes, synchronous or not.";
-  if (name != "generate")
-    description +=
-        " With points as npy or csv in the body, everything else goes into the query: method=, beta=, "
-        "domain.width=, ...";
+  responses.update(problems({404, 406, 409, 410, 411, 413, 415, 422, 429, 500, 504, 507}));
+  return responses;
+}
+
+ordered_json operation_path(const std::string& name, const std::string& summary) {
+  ordered_json parameters = format_parameters(name);
+  if (name != "generate") add_table_parameters(parameters, name);
+  parameters.push_back(
+      parameter("Prefer", "header",
+                "respond-async: 202 at once; respond-async, wait=5: 200 if done within 5 s, else 202",
+                {{"type", "string"}}));
   return {{"post",
            {{"operationId", name},
             {"tags", {"operations"}},
             {"summary", summary},
-            {"description", description},
-            {"parameters", parameters},
-            {"requestBody", {{"required", true}, {"content", body}}},
-            {"responses", responses}}}};
+            {"description", "The same request gives the same bytes, synchronous or not."},
+            {"parameters", std::move(parameters)},
+            {"requestBody", request_body(name)},
+            {"responses", run_responses(name)}}}};
 }
 
 ordered_json get(const char* id, const char* tag, const char* summary, ordered_json content,
@@ -144,15 +201,15 @@ ordered_json job_paths() {
   const ordered_json text = {{"type", "string"}};
   ordered_json paths;
   paths["/v1/jobs"] = {
-      {"get", get("listJobs", "jobs", "List jobs, newest first", json_content(schema_reference("JobList")),
-                  {422, 503},
-                  {parameter("status", "query", "only these",
-                             {{"type", "string"},
-                              {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}),
-                   parameter("operation", "query", "only these", text),
-                   parameter("limit", "query", "jobs a page",
-                             {{"type", "integer"}, {"minimum", 1}, {"maximum", 500}, {"default", 50}}),
-                   parameter("cursor", "query", "from Link: rel=next", text)})}};
+      {"get",
+       get("listJobs", "jobs", "List jobs, newest first", json_content(schema_reference("JobList")), {422},
+           {parameter(
+                "status", "query", "only these",
+                {{"type", "string"}, {"enum", {"accepted", "running", "successful", "failed", "dismissed"}}}),
+            parameter("operation", "query", "only these", text),
+            parameter("limit", "query", "jobs a page",
+                      {{"type", "integer"}, {"minimum", 1}, {"maximum", 500}, {"default", 50}}),
+            parameter("cursor", "query", "from Link: rel=next", text)})}};
   ordered_json remove = {
       {"operationId", "deleteJob"},
       {"tags", {"jobs"}},

@@ -195,9 +195,10 @@ PointSource point_source(Fields& fields, Document& document, std::uint64_t limit
   if (fields.find("domain") != nullptr)
     throw Error(ErrorCode::invalid_parameters, "the points bring their own domain; put it where they are",
                 "/domain");
+  // What a radius gives is known only after the work.
   if (const auto* generated = std::get_if<GenerateRequest>(&source))
-    if (generated->method->expected_count(*generated->domain, generated->arguments) < 3)
-      throw Error(ErrorCode::degenerate_input, "at least 3 points are needed here", "/points/generate");
+    if (argument(generated->arguments, "count").value_or(3) < 3)
+      throw Error(ErrorCode::degenerate_input, "at least 3 points are needed here", "/points/generate/count");
   return source;
 }
 

@@ -107,8 +107,8 @@ TEST(RenderSvg, WritesWellFormedXml) {
     for (const Picture picture : all_pictures) {
       const std::string text = svg(points, picture);
       EXPECT_EQ(why_malformed(text), "") << points.size();
-      for (const char* bad : {"nan", "inf", "\"\"", "-0 ", "e+", "e-"})
-        EXPECT_EQ(text.substr(0, text.find("<text text-anchor")).find(bad), std::string::npos) << bad;
+      for (const char* bad : {"nan", "inf", "\"\"", "-0 "})
+        EXPECT_EQ(text.find(bad), std::string::npos) << bad;
     }
 }
 

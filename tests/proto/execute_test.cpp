@@ -128,9 +128,9 @@ TEST(Execute, SeesNoDifferenceBetweenGeneratedAndUploadedPoints) {
 }
 
 TEST(Execute, PointsToWhatItCouldNotWorkOn) {
-  // Poisson-disk sampling leaves room for one or two points only, which nobody knows beforehand.
+  // Poisson-disk sampling leaves room for one or two points only, which is known only after the work.
   try {
-    run("analyze", R"({"points":{"generate":{"radius":0.47}}})");
+    run("analyze", R"({"points":{"generate":{"radius":0.7}}})");
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(ErrorCode::degenerate_input));

@@ -117,7 +117,8 @@ TEST(EncodeResult, SummarizesInOneLineOfPrintableAsciiWithoutArrays) {
         EXPECT_FALSE(value.is_array()) << pointer;
       for (const auto& [key, value] : result.summary.items()) {
         EXPECT_NE(summary.contains(key), value.is_array()) << key;
-        if (!value.is_array()) EXPECT_EQ(summary[key], value);
+        if (value.is_array()) continue;
+        EXPECT_EQ(summary[key], value);
       }
     }
 }
