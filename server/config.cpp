@@ -27,6 +27,7 @@ template <class T>
 CLI::Option* setting(CLI::App& app, const char* flag, T& value, const std::string& help) {
   return app.add_option(flag, value, help)
       ->envname(environment_name(flag))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->capture_default_str()
       ->group("Settings");
 }
@@ -121,6 +122,19 @@ void split_address(Config& config) {
   config.http.port = port;
 }
 
+/// The settings that the environment holds, as flags to be read before the command line's own. CLI11 itself
+/// would let the file win over them, and would not look there for --config.
+std::vector<std::string> flags_from_environment(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_envname().empty()) continue;
+    const char* value = std::getenv(option->get_envname().c_str());
+    if (value != nullptr && *value != '\0')
+      flags.push_back("--" + option->get_lnames().front() + "=" + value);
+  }
+  return flags;
+}
+
 }  // namespace
 
 void require_store(Config& config) {
@@ -142,6 +156,7 @@ Invocation read_invocation(int argc, const char* const* argv) {
   CLI::App app("Well-spaced blue-noise point sets: generates, optimizes and analyzes them.", "wellspaced");
   app.set_config("--config", "", "TOML file with settings, their flags' names as keys")
       ->envname("WELLSPACED_CONFIG");
+  app.get_config_ptr()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.allow_config_extras(CLI::config_extras_mode::error);
   add_settings(app, i.config);
   bool check = false, openapi = false, health = false, version_wanted = false;
@@ -156,7 +171,11 @@ Invocation read_invocation(int argc, const char* const* argv) {
   add_run(app, i);
   app.require_subcommand(0, 1);
   try {
-    app.parse(argc, argv);
+    const std::vector<std::string> flags = flags_from_environment(app);
+    std::vector<const char*> words(argv, argv + argc);
+    // In front, so that a flag of the command line is the last one, which wins.
+    for (const std::string& flag : flags) words.insert(words.begin() + 1, flag.c_str());
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
     i.exit_code = app.exit(error);
     i.command = Invocation::Command::nothing;

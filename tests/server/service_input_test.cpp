@@ -1,9 +1,11 @@
 // Bad input gets a problem document that names the field, and nothing is lost or left running.
+#include <array>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "proto/formats/npy.h"
 #include "tests/server/raw_client.h"
 #include "tests/support/server_app.h"
 
@@ -42,11 +44,13 @@ std::string with_beta(const std::string& beta) {
 const std::string invalid = "invalid-parameters", malformed = "malformed-request",
                   degenerate = "degenerate-input";
 
+const std::array<double, 6> with_nan = {0.1, 0.2, std::numeric_limits<double>::quiet_NaN(), 0.3, 0.4, 0.5};
+
 const std::vector<BadInput> bad_inputs = {
     {"NanCoordinate", "/v1/analyze", with_points("[[0.1,0.2],[NaN,0.3],[0.4,0.5]]"), 400, malformed, "?"},
     {"InfiniteCoordinate", "/v1/analyze", with_points("[[0.1,0.2],[0.3,1e999],[0.4,0.5]]"), 422, invalid,
      "/points/1/1"},
-    {"NanInNpy", "/v1/analyze", npy("not_finite.npy"), 422, invalid, "?", kNpy},
+    {"NanInNpy", "/v1/analyze", write_npy(with_nan.data(), 3, 2), 422, invalid, "?", kNpy},
     {"PointOutside", "/v1/analyze", with_points("[[0.1,0.2],[0.3,1.0],[0.4,0.5]]"), 422, invalid,
      "/points/1"},
     {"NegativeCoordinate", "/v1/optimize", with_points("[[0.1,0.2],[0.3,0.4],[-0.4,0.5]]"), 422, invalid,
@@ -97,7 +101,7 @@ const std::vector<BadInput> bad_inputs = {
     {"EmptyBody", "/v1/generate", "", 400, malformed, "?"},
     {"TruncatedJson", "/v1/generate", R"({"count":)", 400, malformed, "?"},
     {"DeepNesting", "/v1/analyze", std::string(100000, '['), 400, malformed, "?"},
-    {"DeepPoints", "/v1/analyze", R"({"points":)" + std::string(100000, '['), 400, malformed, "?"},
+    {"DeepPoints", "/v1/analyze", R"({"points":)" + std::string(100000, '['), 422, invalid, "/points/0/0"},
     {"DeepObjects", "/v1/generate",
      [] {
        std::string text;
@@ -107,10 +111,10 @@ const std::vector<BadInput> bad_inputs = {
      400, malformed, "?"},
     {"InvalidUtf8", "/v1/generate", "{\"count\":10,\"\xff\xfe\":1}", 400, malformed, "?"},
     {"TruncatedNpy", "/v1/analyze", npy("little_f8.npy").substr(0, 130), 400, malformed, "?", kNpy},
-    {"NpyOfObjects", "/v1/analyze", npy("dtype_O.npy"), 400, malformed, "?", kNpy},
+    {"NpyOfObjects", "/v1/analyze", npy("dtype_O.npy"), 422, invalid, "?", kNpy},
     {"EmptyNpy", "/v1/analyze", "", 400, malformed, "?", kNpy},
     {"TextAsNpy", "/v1/analyze", "0.1,0.2\n", 400, malformed, "?", kNpy},
-    {"RaggedCsv", "/v1/analyze", "0.1,0.2\n0.3\n0.4,0.5\n", 400, malformed, "?", "text/csv"},
+    {"RaggedCsv", "/v1/analyze", "0.1,0.2\n0.3\n0.4,0.5\n", 422, invalid, "?", "text/csv"},
     {"BadQueryBeta", "/v1/optimize?beta=2", "0.1,0.2\n0.3,0.7\n0.4,0.5\n", 422, invalid, "/beta", "text/csv"},
     {"UnknownMediaType", "/v1/generate", "<x/>", 415, "unsupported-media-type", "?", "application/xml"},
     {"GenerateFromNpy", "/v1/generate", npy("little_f8.npy"), 415, "unsupported-media-type", "?", kNpy},
