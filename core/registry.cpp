@@ -107,7 +107,7 @@ const std::vector<Generator> generator_rows = {
      [](const Domain& domain, const Arguments& a) {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
-     {3e-6, 240}},
+     {5e-6, 180}},
     {{"white-noise",
       "White noise",
       "Independent uniform points: what nothing is spaced looks like.",
@@ -119,7 +119,7 @@ const std::vector<Generator> generator_rows = {
      },
      counted,
      nullptr,
-     {2e-8, 32}},
+     {1e-7, 64}},
     {{"jittered",
       "Jittered grid",
       "One uniform point in each cell of a grid of squares.",
@@ -131,7 +131,7 @@ const std::vector<Generator> generator_rows = {
      },
      counted,
      nullptr,
-     {2e-8, 32}},
+     {1e-7, 64}},
     {{"triangular",
       "Triangular lattice",
       "The best possible spacing, beta = 1/sqrt(3), and no randomness.",
@@ -141,13 +141,13 @@ const std::vector<Generator> generator_rows = {
      run_lattice<triangular_lattice>,
      counted,
      nullptr,
-     {2e-8, 32}},
+     {1e-7, 64}},
     {{"square", "Square lattice", "beta = 1/sqrt(2).", "", {count(nearest_lattice, true)}},
      false,
      run_lattice<square_lattice>,
      counted,
      nullptr,
-     {2e-8, 32}},
+     {1e-7, 64}},
     {{"hexagonal",
       "Hexagonal lattice (honeycomb)",
       "The corners of regular hexagons: beta = 1.",
@@ -157,7 +157,7 @@ const std::vector<Generator> generator_rows = {
      run_lattice<hexagonal_lattice>,
      counted,
      nullptr,
-     {2e-8, 32}},
+     {1e-7, 64}},
 };
 
 OptBetaLocalOptions opt_beta_local_options(const Arguments& a) {
@@ -185,7 +185,7 @@ const std::vector<Optimizer> optimizer_rows = {
        return opt_beta_local(points, opt_beta_local_options(a), control);
      },
      [](const Arguments& a) {
-       return Cost{12e-6 * opt_beta_local_options(a).max_sweeps, 300};
+       return Cost{13e-6 * opt_beta_local_options(a).max_sweeps + 10e-6, 220};
      }},
 };
 

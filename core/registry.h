@@ -40,10 +40,11 @@ using Arguments = std::map<std::string, double, std::less<>>;
 /// The value of an argument, or nothing.
 std::optional<double> argument(const Arguments& arguments, std::string_view name);
 
-/// What a method will cost at most, about: for limits that are checked before the work starts.
+/// What a method will cost at most, about: for limits that are checked before the work starts. The figures
+/// are measured at a million points and rounded up.
 struct Cost {
   double seconds = 0;  ///< one thread, this decade's machine
-  double bytes = 0;
+  double bytes = 0;    ///< at the peak, the points themselves included
 };
 
 /// What every method has.

@@ -22,8 +22,8 @@ double read_value(const Parameter& p, const nlohmann::json& value, const std::st
   if (too_low || too_high || (whole && x != std::floor(x)))
     throw Error(ErrorCode::invalid_parameters,
                 std::string("must be a ") + (whole ? "whole " : "") + "number " +
-                    (too_high ? "up to " + number_text(p.maximum) : range_text(p)) + "; found " +
-                    number_text(x),
+                    (too_high && p.maximum > unbounded ? "up to " + number_text(p.maximum) : range_text(p)) +
+                    "; found " + number_text(x),
                 where);
   return x;
 }

@@ -18,7 +18,7 @@ const std::vector<Measure> measure_rows = {
        return spacing_to_json(measure_spacing(points, control));
      },
      spacing_schema,
-     {3e-6, 400}},
+     {8e-6, 400}},
 };
 
 /// A number of the spacing object: where it comes from and what it means.

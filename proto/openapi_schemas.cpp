@@ -67,6 +67,7 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
   if (!named) properties["method"]["default"] = method.name;
   ordered_json required = ordered_json::array(), densities = ordered_json::array();
   if (named) required.push_back("method");
+  if (common.contains("points")) required.push_back("points");
   for (const Parameter& p : method.parameters) {
     properties[p.name] = parameter_schema(p);
     if (p.required) required.push_back(p.name);

@@ -252,7 +252,8 @@ double source_points(const PointSource& source) {
 }
 
 Cost times(double n, Cost cost) { return {n * cost.seconds, n * cost.bytes}; }
-Cost operator+(Cost a, Cost b) { return {a.seconds + b.seconds, a.bytes + b.bytes}; }
+/// One after the other: what the first one needed is free again.
+Cost operator+(Cost a, Cost b) { return {a.seconds + b.seconds, std::max(a.bytes, b.bytes)}; }
 
 Cost generate_cost(const GenerateRequest& request) {
   return times(request.method->expected_count(*request.domain, request.arguments),
@@ -312,11 +313,11 @@ double expected_points(const Request& request) {
 }
 
 Cost expected_cost(const Request& request) {
-  constexpr Cost writing = {2e-7, 64};  // a point of the result, as text at worst
+  constexpr Cost writing = {3e-7, 200};  // a point of the result, as text at worst
   const double n = expected_points(request);
   if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
-    return source_cost(optimize->points) +
-           times(n, optimize->method->cost_a_point(optimize->arguments) + writing);
+    return source_cost(optimize->points) + times(n, optimize->method->cost_a_point(optimize->arguments)) +
+           times(n, writing);
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
     Cost cost = source_cost(analyze->points);
     for (const Measure* measure : analyze->measures) cost = cost + times(n, measure->cost_a_point);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
@@ -14,8 +14,6 @@
 
 namespace wellspaced {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr Picture all_pictures[] = {Picture::voronoi, Picture::delaunay, Picture::points};
 
@@ -80,6 +78,11 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   return n;
 }
 
+/// Without the whole picture in the message.
+void expect_part(const std::string& text, const std::string& part) {
+  EXPECT_TRUE(text.find(part) != std::string::npos) << "no " << part;
+}
+
 std::vector<PointSet> some_point_sets() {
   Control control;
   Rng rng(1);
@@ -108,15 +111,15 @@ TEST(RenderSvg, WritesWellFormedXml) {
       const std::string text = svg(points, picture);
       EXPECT_EQ(why_malformed(text), "") << points.size();
       for (const char* bad : {"nan", "inf", "\"\"", "-0 "})
-        EXPECT_EQ(text.find(bad), std::string::npos) << bad;
+        EXPECT_TRUE(text.find(bad) == std::string::npos) << bad;
     }
 }
 
 TEST(RenderSvg, DrawsEverySampleAtItsPlace) {
   const std::string text = svg(inline_points(2, 1, {0.5, 0.25, 1.5, 0.5, 1.25, 0.75}), Picture::points);
   EXPECT_EQ(occurrences(text, "<circle"), 3u);
-  EXPECT_THAT(text, HasSubstr("cx=\"225\" cy=\"337.5\""));
-  EXPECT_THAT(text, HasSubstr("cx=\"675\" cy=\"225\""));
+  expect_part(text, "cx=\"225\" cy=\"337.5\"");
+  expect_part(text, "cx=\"675\" cy=\"225\"");
 }
 
 TEST(RenderSvg, DrawsWhatCrossesTheBorderOnBothSides) {
@@ -124,7 +127,7 @@ TEST(RenderSvg, DrawsWhatCrossesTheBorderOnBothSides) {
   EXPECT_EQ(occurrences(corner, "<circle"), 6u);
   for (const char* place :
        {"cx=\"0\" cy=\"900\"", "cx=\"900\" cy=\"900\"", "cx=\"0\" cy=\"0\"", "cx=\"900\" cy=\"0\""})
-    EXPECT_THAT(corner, HasSubstr(place));
+    expect_part(corner, place);
 }
 
 /// The areas of the cells that are drawn, clipped to the picture, in square pixels.
@@ -188,16 +191,16 @@ TEST(RenderSvg, KeepsTheLegendInsideTheSheet) {
 TEST(RenderSvg, SaysWhatWasMeasured) {
   Control control;
   const std::string text = svg(square_lattice(std::make_shared<Torus>(), 100, control));
-  EXPECT_THAT(text, HasSubstr("<title>100 points, beta 0.7071</title>"));
-  EXPECT_THAT(text, HasSubstr("β = 0.7071"));
-  EXPECT_THAT(text, HasSubstr("ρ = 0.9306"));
+  expect_part(text, "<title>100 points, beta 0.7071</title>");
+  expect_part(text, "β = 0.7071");
+  expect_part(text, "ρ = 0.9306");
 }
 
 TEST(RenderSvg, ColorsTheBestDarkBlueAndTheWorstAmber) {
   Control control;
   const auto box = std::make_shared<Torus>(std::sqrt(3.0), 1);
-  EXPECT_THAT(svg(triangular_lattice(box, 200, control)), HasSubstr("<path fill=\"#301c60\""));
-  EXPECT_THAT(svg(hexagonal_lattice(box, 200, control)), HasSubstr("<path fill=\"#e8a018\""));
+  expect_part(svg(triangular_lattice(box, 216, control)), "<path fill=\"#301c60\"");
+  expect_part(svg(hexagonal_lattice(box, 200, control)), "<path fill=\"#e8a018\"");
 }
 
 TEST(RenderSvg, GivesTheSameBytesOnAnyNumberOfThreads) {

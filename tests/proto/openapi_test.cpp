@@ -67,6 +67,13 @@ std::set<std::string> query_names(const std::string& path) {
   return names;
 }
 
+TEST(Openapi, RequiresPointsWhereTheyAreWorkedOn) {
+  const auto points = ::testing::Contains(ordered_json("points"));
+  for (const Optimizer& method : optimizers())
+    EXPECT_THAT(schema_of_method("OptimizeRequest", method.name)["required"], points);
+  EXPECT_THAT(schema("AnalyzeRequest")["required"], points);
+}
+
 TEST(Openapi, ListsTheQueryOfRequestsWhosePointsAreNotJson) {
   const auto optimize = query_names("/v1/optimize"), analyze = query_names("/v1/analyze");
   for (const Optimizer& method : optimizers())
