@@ -80,11 +80,14 @@ PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, R
 /// The conflict radius of about `count` points, at most the largest one that a sampling can have. Where it is
 /// above the shorter side, points follow each other as on a line, n r = 0.7476 of its length (Renyi's parking
 /// constant).
-double radius_of_count(const Torus& torus, std::uint64_t count) {
+double radius_of_count(const Torus& torus, double count) {
   constexpr double parking = 0.7476;
-  const double on_line = parking * std::max(torus.width(), torus.height()) / static_cast<double>(count);
+  // Two at least: a radius of half the diagonal leaves a gap of no size, which takes long to rule out on a
+  // thin torus.
+  const double on_line = parking * std::max(torus.width(), torus.height()) / std::max(2.0, count);
   const double farthest = norm(torus.box().size) / 2;
-  return std::min(std::max(poisson_disk_radius(torus.area(), count), on_line), farthest);
+  return std::min(std::max(poisson_disk_radius(torus.area(), static_cast<std::uint64_t>(count)), on_line),
+                  farthest);
 }
 
 const std::vector<Generator> generator_rows = {
@@ -98,7 +101,8 @@ const std::vector<Generator> generator_rows = {
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
-       return poisson_disk(torus, {r ? *r : radius_of_count(*torus, count_of(a))}, rng, control);
+       return poisson_disk(torus, {r ? *r : radius_of_count(*torus, argument(a, "count").value())}, rng,
+                           control);
      },
      [](const Domain& domain, const Arguments& a) {
        const auto r = argument(a, "radius");
