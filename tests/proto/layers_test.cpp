@@ -23,7 +23,7 @@ const std::vector<Rule> rules = {
     {"<CGAL/", {"core/voronoi/delaunay.cpp"}},
     {"<httplib", {"server/http/"}},
     {"<nlohmann/", {"proto/", "server/"}},
-    {"<spdlog/", {"server/log.cpp"}},
+    {"<spdlog/", {"server/"}},
     {"<sqlite3", {"server/jobs/"}},
     {"<CLI/", {"server/config.cpp"}},
 };

@@ -60,7 +60,7 @@ const std::vector<BadInput> bad_inputs = {
     {"TwoPoints", "/v1/analyze", with_points("[[0.1,0.2],[0.3,0.4]]"), 422, degenerate, "/points"},
     {"NoPoints", "/v1/analyze", with_points("[]"), 422, degenerate, "/points"},
     {"TwoGeneratedPoints", "/v1/optimize", with_points(R"({"generate":{"count":2}})"), 422, degenerate,
-     "/points/generate"},
+     "/points/generate/count"},
     {"CountZero", "/v1/generate", R"({"count":0})", 422, invalid, "/count"},
     {"CountNegative", "/v1/generate", R"({"count":-5})", 422, invalid, "/count"},
     {"CountFractional", "/v1/generate", R"({"count":10.5})", 422, invalid, "/count"},
