@@ -16,9 +16,9 @@ namespace wellspaced {
 namespace {
 
 void log_exchange(const http::Exchange& e) {
-  nlohmann::ordered_json fields = {{"request_id", e.id},       {"method", e.method},   {"target", e.target},
-                                   {"status", e.status},       {"seconds", e.seconds}, {"bytes_in", e.bytes_in},
-                                   {"bytes_out", e.bytes_out}};
+  nlohmann::ordered_json fields = {
+      {"request_id", e.id},   {"method", e.method},     {"target", e.target},      {"status", e.status},
+      {"seconds", e.seconds}, {"bytes_in", e.bytes_in}, {"bytes_out", e.bytes_out}};
   if (!e.trace_parent.empty()) fields["traceparent"] = e.trace_parent;
   if (e.failure.empty()) return log_info("request", std::move(fields));
   fields["failure"] = e.failure;
@@ -65,14 +65,16 @@ class App::Impl {
         store_(open_store(config_)),
         context_{config_, *store_, metrics_},
         router_(routes(context_)),
-        guard_(config_.http, [this](const http::Request& request) { return router_(request); },
-               [this](const http::Exchange& exchange) {
-                 metrics_.count_exchange(exchange);
-                 log_exchange(exchange);
-               }) {
+        guard_(
+            config_.http, [this](const http::Request& request) { return router_(request); },
+            [this](const http::Exchange& exchange) {
+              metrics_.count_exchange(exchange);
+              log_exchange(exchange);
+            }) {
     guard_.listen();  // before the workers: nothing runs if the address can't be had
     pool_ = std::make_unique<WorkerPool>(
-        *store_, pool_options(config_), [this](const Claim& claim, Control& control) { return run(claim, control); },
+        *store_, pool_options(config_),
+        [this](const Claim& claim, Control& control) { return run(claim, control); },
         [this](const JobFinished& finished) {
           metrics_.count_finished(finished);
           log_job(finished);
@@ -87,8 +89,10 @@ class App::Impl {
   int port() const { return guard_.port(); }
 
   bool serve() {
-    log_info("serving", {{"listen", config_.http.host + ":" + std::to_string(port())}, {"store", config_.store},
-                         {"workers", config_.workers}, {"threads", config_.threads}});
+    log_info("serving", {{"listen", config_.http.host + ":" + std::to_string(port())},
+                         {"store", config_.store},
+                         {"workers", config_.workers},
+                         {"threads", config_.threads}});
     std::thread closer([this] { close_when_asked(); });
     guard_.serve();
     stop();
@@ -119,7 +123,8 @@ class App::Impl {
     }
   }
 
-  /// For a while after `stop`, the door stays open: balancers see readyz fail, and clients are told to come back.
+  /// For a while after `stop`, the door stays open: balancers see readyz fail, and clients are told to come
+  /// back.
   void close_when_asked() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_; });

@@ -10,7 +10,8 @@
 
 namespace wellspaced {
 
-/// Everything an operator can set. One table in config.cpp gives each setting its flag, environment variable and file key:
+/// Everything an operator can set. One table in config.cpp gives each setting its flag, environment variable
+/// and file key:
 /// --sync-seconds = WELLSPACED_SYNC_SECONDS = sync-seconds; flag > environment > file > default.
 struct Config {
   std::string listen = "127.0.0.1:8080";
@@ -35,18 +36,19 @@ struct Invocation {
   // of `run`:
   std::string operation, request_path, output_path, format, picture, content_type;
   std::vector<std::string> query;
-  int exit_code = 0;    ///< for `nothing`: the text was printed already (help, usage errors)
+  int exit_code = 0;  ///< for `nothing`: the text was printed already (help, usage errors)
 };
 
 /// Reads arguments, environment and configuration file. Prints help and usage errors itself.
 Invocation read_invocation(int argc, const char* const* argv);
 
-/// Gives `store` its default. Errors: invalid_parameters naming --store, when the environment tells no place for it.
-/// Apart from `complete`, because only a server has a store.
+/// Gives `store` its default. Errors: invalid_parameters naming --store, when the environment tells no place
+/// for it. Apart from `complete`, because only a server has a store.
 void require_store(Config& config);
 
 /// Fills in what else has no constant default, and checks what belongs together.
-/// Errors: invalid_parameters naming the flag: an address that can't be read, a public address without --allow-public.
+/// Errors: invalid_parameters naming the flag: an address that can't be read, a public address without
+/// --allow-public.
 void complete(Config& config);
 
 }  // namespace wellspaced

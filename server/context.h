@@ -15,9 +15,9 @@ struct Context {
   const Config& config;
   JobStore& store;
   Metrics& metrics;
-  WorkerPool* pool = nullptr;                ///< set before the first request
-  std::atomic<bool> draining = false;        ///< no new work is taken
-  std::atomic<std::uint64_t> changes = 0;    ///< grows whenever some job's state or events may have changed
+  WorkerPool* pool = nullptr;              ///< set before the first request
+  std::atomic<bool> draining = false;      ///< no new work is taken
+  std::atomic<std::uint64_t> changes = 0;  ///< grows whenever some job's state or events may have changed
 };
 
 }  // namespace wellspaced

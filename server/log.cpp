@@ -37,7 +37,8 @@ class Members final : public spdlog::custom_flag_formatter {
 
 std::shared_ptr<spdlog::logger> make_logger(std::string_view name, const spdlog::sink_ptr& sink,
                                             const std::string& level) {
-  // Asynchronous: the thread that waits for all connections logs, too, and must not wait for a reader of this log.
+  // Asynchronous: the thread that waits for all connections logs, too, and must not wait for a reader of this
+  // log.
   auto logger = std::make_shared<spdlog::async_logger>(std::string(name), sink, spdlog::thread_pool(),
                                                        spdlog::async_overflow_policy::overrun_oldest);
   logger->set_level(spdlog::level::from_str(level));

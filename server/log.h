@@ -6,9 +6,9 @@
 
 namespace wellspaced {
 
-/// One JSON object a line on standard error: {"time", "level", "message", ...fields}, whatever is logged through
-/// spdlog's default logger included. Before `start_log` nothing is written.
-/// Thread safety: any thread. Invalid UTF-8 in fields is replaced.
+/// One JSON object a line on standard error: {"time", "level", "message", ...fields}, whatever is logged
+/// through spdlog's default logger included. Before `start_log` nothing is written. Thread safety: any
+/// thread. Invalid UTF-8 in fields is replaced.
 void start_log(const std::string& level);
 void log_info(const std::string& message, nlohmann::ordered_json fields = {});
 void log_error(const std::string& message, nlohmann::ordered_json fields = {});

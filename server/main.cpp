@@ -16,7 +16,8 @@ namespace {
 
 using namespace wellspaced;
 
-/// Serves until SIGTERM or SIGINT. Signals are waited for on a thread of their own: no code runs in a handler.
+/// Serves until SIGTERM or SIGINT. Signals are waited for on a thread of their own: no code runs in a
+/// handler.
 int serve(Config config) {
   sigset_t signals;
   sigemptyset(&signals);

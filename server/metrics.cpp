@@ -1,19 +1,20 @@
 #include "server/metrics.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <sstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "proto/result.h"
 
 namespace wellspaced {
 namespace {
 
-constexpr std::array<double, 12> bucket_seconds = {0.001, 0.005, 0.01, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 10, 60, 600};
+constexpr std::array<double, 12> bucket_seconds = {0.001, 0.005, 0.01, 0.05, 0.1, 0.25,
+                                                   0.5,   1,     2.5,  10,   60,  600};
 
 std::string label(const char* name, const std::string& value) {
   std::string out = std::string(name) + "=\"";
@@ -28,15 +29,19 @@ void family(std::ostream& out, const char* name, const char* type, const char* h
   out << "# HELP wellspaced_" << name << " " << help << "\n# TYPE wellspaced_" << name << " " << type << "\n";
 }
 
-void counters(std::ostream& out, const char* name, const char* help, const std::map<std::string, std::uint64_t>& values) {
+void counters(std::ostream& out, const char* name, const char* help,
+              const std::map<std::string, std::uint64_t>& values) {
   family(out, name, "counter", help);
-  for (const auto& [labels, value] : values) out << "wellspaced_" << name << "{" << labels << "} " << value << "\n";
+  for (const auto& [labels, value] : values)
+    out << "wellspaced_" << name << "{" << labels << "} " << value << "\n";
 }
 
 void process(std::ostream& out) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   long pages = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> pages >> resident;
   out << "# HELP process_cpu_seconds_total Processor time used.\n# TYPE process_cpu_seconds_total counter\n"
@@ -87,18 +92,21 @@ void Metrics::count_rejected(const std::string& reason) {
 std::string Metrics::text(const JobCounts& queue) const {
   std::ostringstream out;
   const std::lock_guard lock(mutex_);
-  const auto histograms = [&](const char* name, const char* help, const std::map<std::string, Histogram>& values) {
+  const auto histograms = [&](const char* name, const char* help,
+                              const std::map<std::string, Histogram>& values) {
     family(out, name, "histogram", help);
     for (const auto& [labels, h] : values) {
       for (std::size_t b = 0; b < bucket_seconds.size(); ++b)
-        out << "wellspaced_" << name << "_bucket{" << labels << ",le=\"" << bucket_seconds[b] << "\"} " << h.buckets[b] << "\n";
+        out << "wellspaced_" << name << "_bucket{" << labels << ",le=\"" << bucket_seconds[b] << "\"} "
+            << h.buckets[b] << "\n";
       out << "wellspaced_" << name << "_bucket{" << labels << ",le=\"+Inf\"} " << h.count << "\n"
           << "wellspaced_" << name << "_sum{" << labels << "} " << h.sum << "\n"
           << "wellspaced_" << name << "_count{" << labels << "} " << h.count << "\n";
     }
   };
   counters(out, "http_requests_total", "Requests answered.", requests_);
-  histograms("http_request_duration_seconds", "Time from a request's head to its answer's end.", request_seconds_);
+  histograms("http_request_duration_seconds", "Time from a request's head to its answer's end.",
+             request_seconds_);
   counters(out, "jobs_submitted_total", "Jobs taken.", submitted_);
   counters(out, "jobs_finished_total", "Jobs that ended.", finished_);
   histograms("job_run_seconds", "Time a job was computed.", run_seconds_);
@@ -110,7 +118,8 @@ std::string Metrics::text(const JobCounts& queue) const {
   family(out, "jobs_running", "gauge", "Jobs being computed.");
   out << "wellspaced_jobs_running " << queue.running << "\n";
   family(out, "job_oldest_queued_seconds", "gauge", "Age of the oldest job waiting.");
-  out << "wellspaced_job_oldest_queued_seconds " << static_cast<double>(queue.oldest_accepted_ms) / 1000 << "\n";
+  out << "wellspaced_job_oldest_queued_seconds " << static_cast<double>(queue.oldest_accepted_ms) / 1000
+      << "\n";
   family(out, "build_info", "gauge", "Always 1.");
   out << "wellspaced_build_info{" << label("version", std::string(version())) << "} 1\n";
   process(out);

@@ -113,10 +113,12 @@ std::string job_to_json(const Job& job) {
   return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-http::Response result_response(Context& context, const Job& job, const Wanted& wanted, const std::string& request_id) {
+http::Response result_response(Context& context, const Job& job, const Wanted& wanted,
+                               const std::string& request_id) {
   if (job.status == JobStatus::failed) return to_response(problem_from_json(job.problem), request_id);
   if (job.status == JobStatus::dismissed)
-    throw Error(ErrorCode::cancelled, "the job was cancelled before it had a result; submit the request again");
+    throw Error(ErrorCode::cancelled,
+                "the job was cancelled before it had a result; submit the request again");
   const Result result = load_result(context.store.result(job.id));
   const Control control(context.config.threads);
   Encoded encoded = encode_result(result, wanted.format, wanted.picture, context.config.limits, control);

@@ -29,8 +29,10 @@ Preference read_preference(const http::Request& request);
 /// The first value of a query parameter, or empty.
 std::string query_value(const http::Request& request, const std::string& name);
 
-/// The finished job's result in the wanted form, or its problem. Errors: result_not_ready, result_expired, cancelled.
-http::Response result_response(Context& context, const Job& job, const Wanted& wanted, const std::string& request_id);
+/// The finished job's result in the wanted form, or its problem. Errors: result_not_ready, result_expired,
+/// cancelled.
+http::Response result_response(Context& context, const Job& job, const Wanted& wanted,
+                               const std::string& request_id);
 
 /// A job's status as JSON, with links.
 std::string job_to_json(const Job& job);

@@ -31,10 +31,12 @@ JobFilter read_filter(const http::Request& request) {
       filter.cursor = value;
     } else if (name == "limit") {
       const auto end = std::from_chars(value.data(), value.data() + value.size(), filter.limit);
-      if (end.ec != std::errc() || end.ptr != value.data() + value.size() || filter.limit < 1 || filter.limit > most_jobs_a_page)
+      if (end.ec != std::errc() || end.ptr != value.data() + value.size() || filter.limit < 1 ||
+          filter.limit > most_jobs_a_page)
         throw Error(ErrorCode::invalid_parameters, "limit must be a whole number from 1 to 500", "/limit");
     } else {
-      throw Error(ErrorCode::invalid_parameters, "unknown parameter; known here are: status, operation, limit, cursor", pointer_token(name));
+      throw Error(ErrorCode::invalid_parameters,
+                  "unknown parameter; known here are: status, operation, limit, cursor", pointer_token(name));
     }
   }
   return filter;
@@ -43,7 +45,8 @@ JobFilter read_filter(const http::Request& request) {
 std::string next_page(const JobFilter& filter, const std::string& cursor) {
   std::string target = "/v1/jobs?limit=" + std::to_string(filter.limit) + "&cursor=" + cursor;
   if (filter.status) target += std::string("&status=") + to_string(*filter.status);
-  // Only words from our own registry can match, so nothing here needs escaping; others give an empty page without a next.
+  // Only words from our own registry can match, so nothing here needs escaping; others give an empty page
+  // without a next.
   if (!filter.operation.empty()) target += "&operation=" + filter.operation;
   return target;
 }
@@ -65,7 +68,10 @@ std::string event_text(const std::string& type, std::int64_t sequence, const std
 class JobEvents final : public http::EventSource {
  public:
   JobEvents(Context& context, std::string id, std::int64_t after)
-      : context_(context), id_(std::move(id)), sequence_(after), next_comment_(Clock::now() + comment_every) {}
+      : context_(context),
+        id_(std::move(id)),
+        sequence_(after),
+        next_comment_(Clock::now() + comment_every) {}
 
   std::optional<std::string> poll() override {
     if (done_) return std::nullopt;
@@ -106,14 +112,15 @@ std::optional<std::int64_t> last_event_id(const http::Request& request) {
   const std::string_view text = request.header("Last-Event-ID");
   std::int64_t sequence = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), sequence);
-  if (text.empty() || end.ec != std::errc() || end.ptr != text.data() + text.size() || sequence < 0) return {};
+  if (text.empty() || end.ec != std::errc() || end.ptr != text.data() + text.size() || sequence < 0)
+    return {};
   return sequence;
 }
 
 /// Kept results never change, so a job's id and the form name the bytes.
 std::string entity_tag(const Job& job, const Wanted& wanted) {
-  return "\"" + job.id + "-" + std::string(name_of(wanted.format)) + (wanted.picture.empty() ? "" : "-" + wanted.picture) + "-" +
-         std::string(version()) + "\"";
+  return "\"" + job.id + "-" + std::string(name_of(wanted.format)) +
+         (wanted.picture.empty() ? "" : "-" + wanted.picture) + "-" + std::string(version()) + "\"";
 }
 
 }  // namespace
@@ -146,7 +153,8 @@ http::Response get_result(Context& context, const http::Request& request) {
   const Job job = find_job(context, request.parameter("id"));
   if (!is_terminal(job.status))
     throw Error(ErrorCode::result_not_ready, "the job is " + std::string(to_string(job.status)) +
-                                                 "; ask again later, or wait with GET /v1/jobs/" + job.id + " and Prefer: wait=20");
+                                                 "; ask again later, or wait with GET /v1/jobs/" + job.id +
+                                                 " and Prefer: wait=20");
   const Wanted wanted = read_wanted(request, job.operation);
   http::Response response = result_response(context, job, wanted, request.id);
   if (response.status != 200) return response;
@@ -183,8 +191,7 @@ http::Response delete_job(Context& context, const http::Request& request) {
     case CancelOutcome::requested:
       return json_response(job_to_json(find_job(context, id)));
     case CancelOutcome::already_over:
-      if (!purge)
-        throw Error(ErrorCode::conflict, "the job is over; to delete its result, say ?purge=true");
+      if (!purge) throw Error(ErrorCode::conflict, "the job is over; to delete its result, say ?purge=true");
       context.store.purge(id);
       break;
     case CancelOutcome::unknown:

@@ -22,13 +22,16 @@ http::Response text_response(std::string text, const std::string& media_type) {
 
 }  // namespace
 
-http::Response get_livez(Context&, const http::Request&) { return text_response("ok\n", "text/plain; charset=utf-8"); }
+http::Response get_livez(Context&, const http::Request&) {
+  return text_response("ok\n", "text/plain; charset=utf-8");
+}
 
 http::Response get_readyz(Context& context, const http::Request& request) {
   if (context.draining) throw Error(ErrorCode::draining, "the server is stopping");
   context.store.ping();
   const bool verbose = request.target.find("verbose") != std::string::npos;
-  return text_response(verbose ? "[ok] not draining\n[ok] store\nready\n" : "ready\n", "text/plain; charset=utf-8");
+  return text_response(verbose ? "[ok] not draining\n[ok] store\nready\n" : "ready\n",
+                       "text/plain; charset=utf-8");
 }
 
 http::Response get_version(Context&, const http::Request&) {
@@ -36,7 +39,8 @@ http::Response get_version(Context&, const http::Request&) {
 }
 
 http::Response get_metrics(Context& context, const http::Request&) {
-  return text_response(context.metrics.text(context.store.counts()), "text/plain; version=0.0.4; charset=utf-8");
+  return text_response(context.metrics.text(context.store.counts()),
+                       "text/plain; version=0.0.4; charset=utf-8");
 }
 
 http::Response get_openapi(Context& context, const http::Request&) {
@@ -55,12 +59,13 @@ http::Response get_operation(Context& context, const http::Request& request) {
 }
 
 http::Response get_root(Context&, const http::Request&) {
-  return text_response("wellspaced " + std::string(version()) +
-                           ": well-spaced blue-noise point sets\n\n"
-                           "  POST /v1/generate   POST /v1/optimize   POST /v1/analyze\n"
-                           "  GET  /v1/operations (methods and their parameters)   GET /openapi.json (the whole contract)\n\n"
-                           "curl -s HOST/v1/generate -H 'Content-Type: application/json' -d '{\"count\": 1000}'\n",
-                       "text/plain; charset=utf-8");
+  return text_response(
+      "wellspaced " + std::string(version()) +
+          ": well-spaced blue-noise point sets\n\n"
+          "  POST /v1/generate   POST /v1/optimize   POST /v1/analyze\n"
+          "  GET  /v1/operations (methods and their parameters)   GET /openapi.json (the whole contract)\n\n"
+          "curl -s HOST/v1/generate -H 'Content-Type: application/json' -d '{\"count\": 1000}'\n",
+      "text/plain; charset=utf-8");
 }
 
 }  // namespace wellspaced

@@ -5,8 +5,9 @@
 
 namespace wellspaced {
 
-http::Response get_livez(Context& context, const http::Request& request);    ///< the process answers
-http::Response get_readyz(Context& context, const http::Request& request);   ///< 503 when draining or without a store
+http::Response get_livez(Context& context, const http::Request& request);  ///< the process answers
+http::Response get_readyz(Context& context,
+                          const http::Request& request);  ///< 503 when draining or without a store
 http::Response get_version(Context& context, const http::Request& request);
 http::Response get_metrics(Context& context, const http::Request& request);
 http::Response get_openapi(Context& context, const http::Request& request);

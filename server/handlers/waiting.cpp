@@ -36,7 +36,8 @@ Job JobWait::find() const { return find_job(context_, id_); }
 
 Job find_job(Context& context, const std::string& id) {
   if (auto job = context.store.find(id)) return *std::move(job);
-  throw Error(ErrorCode::no_such_job, "there is no job with this id; it may have expired, or the id is incomplete");
+  throw Error(ErrorCode::no_such_job,
+              "there is no job with this id; it may have expired, or the id is incomplete");
 }
 
 http::Response accepted_response(const Job& job) {

@@ -49,7 +49,7 @@ struct Connection {
   std::unique_ptr<EventSource> events;
   std::unique_ptr<Pending> pending;
   std::string pending_route;  ///< the route that made `pending`
-  bool abandoned = false;  ///< the client closed while its response was pending
+  bool abandoned = false;     ///< the client closed while its response was pending
   Exchange exchange;
   bool reported = false;  ///< the exchange has been told to on_exchange
   Clock::time_point started;

@@ -30,7 +30,7 @@ struct Request {
   std::vector<std::pair<std::string, std::string>> query;  ///< decoded, in order, duplicates kept
   Headers headers;
   std::string body;
-  std::string id;                        ///< request id: the client's X-Request-Id if sane, else our own
+  std::string id;  ///< request id: the client's X-Request-Id if sane, else our own
 
   /// First value of a header, or empty.
   std::string_view header(std::string_view name) const;

@@ -1,10 +1,10 @@
 #include "core/voronoi/cell.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/rng.h"
 
@@ -64,7 +64,8 @@ TEST(Cell, IsTheIntersectionOfItsHalfPlanes) {
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
         const Vec2 p{6 * (i + 0.5) / side - 3, 6 * (j + 0.5) / side - 3};
-        inside += std::all_of(planes.begin(), planes.end(), [&](const HalfPlane& h) { return dot(h.n, p) <= h.c; });
+        inside +=
+            std::all_of(planes.begin(), planes.end(), [&](const HalfPlane& h) { return dot(h.n, p) <= h.c; });
       }
     const double step = 6.0 / side;
     double perimeter = 0;

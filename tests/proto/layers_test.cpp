@@ -1,9 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -56,7 +56,8 @@ TEST(Layers, KeepTheCoreQuiet) {
     if (!file.starts_with("core/")) continue;
     std::ifstream stream(root / file);
     for (std::string line; std::getline(stream, line);)
-      for (const char* word : {"<iostream>", "std::cout", "std::cerr", "printf(", "std::random_device", "std::mt19937", "using namespace std"})
+      for (const char* word : {"<iostream>", "std::cout", "std::cerr", "printf(", "std::random_device",
+                               "std::mt19937", "using namespace std"})
         EXPECT_EQ(line.find(word), std::string::npos) << file << ": " << line;
   }
 }
