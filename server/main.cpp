@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <thread>
 
 #include "core/error.h"
@@ -26,15 +27,16 @@ int serve(Config config) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   start_log(config.log_level);
-  App app(std::move(config));
+  auto app = std::make_unique<App>(std::move(config));
   std::thread waiter([&] {
     int signal = 0;
     sigwait(&signals, &signal);
-    app.stop();
+    app->stop();
   });
-  const bool clean = app.serve();
+  const bool clean = app->serve();
   pthread_kill(waiter.native_handle(), SIGTERM);
   waiter.join();
+  if (clean) app.reset();  // its threads may have something to say until then
   flush_log();
   if (!clean) std::_Exit(0);  // a computation that didn't listen; its job is back in the queue
   return 0;

@@ -199,6 +199,8 @@ TEST_F(ServiceProcess, AFlagWinsOverTheEnvironmentAndThatOverTheFile) {
   EXPECT_EQ(points_told({}, {}), "10000000 points.");
   EXPECT_EQ(points_told({"--config", config}, {}), "111 points.");
   EXPECT_EQ(points_told({}, {{"WELLSPACED_CONFIG", config}}), "111 points.");
+  EXPECT_EQ(points_told({"--config", config}, {{"WELLSPACED_CONFIG", directory / "absent.toml"}}),
+            "111 points.");
   EXPECT_EQ(points_told({"--config", config}, environment), "222 points.");
   EXPECT_EQ(points_told({"--config", config, "--generate-limit", "333"}, environment), "333 points.");
 }
@@ -232,6 +234,13 @@ TEST_F(ServiceProcess, BadSettingsAreRefusedByName) {
     EXPECT_NE(process.wait(), 0) << row.arguments.back();
     EXPECT_THAT(process.err(), HasSubstr(row.told));
   }
+  Process from_environment({"--check-config", "--store", store}, {{"WELLSPACED_WORKERS", "many"}});
+  EXPECT_NE(from_environment.wait(), 0);
+  EXPECT_THAT(from_environment.err(), HasSubstr("--workers"));
+  const Process::Environment flags = {{"WELLSPACED_ALLOW_PUBLIC", "true"},
+                                      {"WELLSPACED_LISTEN", ":80"},
+                                      {"WELLSPACED_PORT", "tcp://1.2.3.4"}};
+  EXPECT_EQ(Process({"--check-config", "--store", store}, flags).wait(), 0);
   EXPECT_EQ(Process({"--check-config", "--store", store}).wait(), 0);
   EXPECT_EQ(Process({"--check-config", "--store", store, "--listen", "0.0.0.0:80", "--allow-public"}).wait(),
             0);
