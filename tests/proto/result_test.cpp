@@ -113,8 +113,7 @@ TEST(EncodeResult, SummarizesInOneLineOfPrintableAsciiWithoutArrays) {
       for (const char c : line) EXPECT_TRUE(c >= 0x20 && c < 0x7f) << static_cast<int>(c);
       EXPECT_LT(line.size(), 4000u);
       const auto summary = nlohmann::ordered_json::parse(line);
-      const nlohmann::ordered_json flat = summary.flatten();  // items() of a temporary would outlive it
-      for (const auto& [pointer, value] : flat.items()) EXPECT_FALSE(value.is_array()) << pointer;
+      EXPECT_EQ(line.find('['), std::string::npos) << line;
       for (const auto& [key, value] : result.summary.items()) {
         EXPECT_NE(summary.contains(key), value.is_array()) << key;
         if (value.is_array()) continue;
