@@ -114,11 +114,10 @@ class Sampler {
     for (std::int64_t j = 0; j < grid_.y.cells; ++j)
       for (std::int64_t i = 0; i < grid_.x.cells; ++i)
         active_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-    const std::int64_t widest = std::max(grid_.x.cells, grid_.y.cells);
-    for (level_ = 0; !active_.empty() && (widest << (level_ + 1)) < (std::int64_t{1} << 32); ++level_) {
+    for (int round = 0; !active_.empty() && halvable(); ++round) {
       throw_darts();
       halve();
-      control_.report({1 - 1.0 / (2 + level_)});
+      control_.report({1 - 1.0 / (2 + round)});
     }
   }
 
@@ -144,8 +143,13 @@ class Sampler {
   static constexpr std::size_t darts_between_checks = 1 << 14;
 
   Vec2 side() const {
-    const double parts = static_cast<double>(std::int64_t{1} << level_);
-    return {grid_.x.side / parts, grid_.y.side / parts};
+    return {grid_.x.side / static_cast<double>(std::int64_t{1} << level_x_),
+            grid_.y.side / static_cast<double>(std::int64_t{1} << level_y_)};
+  }
+
+  bool halvable() const {
+    constexpr std::int64_t most = std::int64_t{1} << 31;
+    return (grid_.x.cells << level_x_) < most && (grid_.y.cells << level_y_) < most;
   }
 
   void throw_darts() {
@@ -155,7 +159,7 @@ class Sampler {
       if (t % darts_between_checks == 0) control_.check();
       const ActiveCell c = active_[rng_.below(active_.size())];
       const double u = rng_.uniform(), v = rng_.uniform();
-      const std::int64_t i = c.i >> level_, j = c.j >> level_;
+      const std::int64_t i = c.i >> level_x_, j = c.j >> level_y_;
       if (grid_.taken(i, j)) continue;
       // Rounding may lift the last cell's points onto the period, which is 0.
       const Vec2 p{wrap((c.i + u) * size.x, grid_.x.period), wrap((c.j + v) * size.y, grid_.y.period)};
@@ -164,28 +168,35 @@ class Sampler {
     }
   }
 
-  /// Keeps the quarters of active cells that no single disk covers.
+  /// Keeps the parts of active cells that no single disk covers. Long cells, which only thin tori have, are
+  /// halved across; quarters of them would stay as long, and follow the rim of a disk in very many pieces.
   void halve() {
-    const Vec2 half = 0.5 * side(), quarter = 0.25 * side();
+    const Vec2 size = side();
+    const unsigned across_x = size.x * 2 > size.y ? 1 : 0, across_y = size.y * 2 > size.x ? 1 : 0;
+    const Vec2 part{across_x != 0 ? size.x / 2 : size.x, across_y != 0 ? size.y / 2 : size.y};
     next_.clear();
     for (std::size_t k = 0; k < active_.size(); ++k) {
       if (k % darts_between_checks == 0) control_.check();
       const ActiveCell c = active_[k];
-      const std::int64_t i = c.i >> level_, j = c.j >> level_;
+      const std::int64_t i = c.i >> level_x_, j = c.j >> level_y_;
       if (grid_.taken(i, j)) continue;
-      for (std::uint32_t b = 0; b < 4; ++b) {
-        const ActiveCell q{2 * c.i + (b & 1), 2 * c.j + (b >> 1)};
-        if (!grid_.covers(i, j, {(q.i + 0.5) * half.x, (q.j + 0.5) * half.y}, quarter)) next_.push_back(q);
-      }
+      for (unsigned b = 0; b <= across_y; ++b)
+        for (unsigned a = 0; a <= across_x; ++a) {
+          const ActiveCell q{(c.i << across_x) + a, (c.j << across_y) + b};
+          if (!grid_.covers(i, j, {(q.i + 0.5) * part.x, (q.j + 0.5) * part.y}, 0.5 * part))
+            next_.push_back(q);
+        }
     }
     active_.swap(next_);
+    level_x_ += static_cast<int>(across_x);
+    level_y_ += static_cast<int>(across_y);
   }
 
   SampleGrid grid_;
   Rng& rng_;
   Control& control_;
   std::vector<ActiveCell> active_, next_;
-  int level_ = 0;
+  int level_x_ = 0, level_y_ = 0;  // how often each axis has been halved
 };
 
 /// The farthest corner of every cell that is farther than `radius` from its sample, in the points' order.

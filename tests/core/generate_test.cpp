@@ -1,5 +1,7 @@
 #include "core/generate/generate.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include "core/analyze/spacing.h"
@@ -39,6 +41,19 @@ TEST(PoissonDisk, KeepsBothOfItsGuaranteesOnEveryTorus) {
       EXPECT_LE(brute_r_c(points, 1e-4 * c.radius), c.radius * (1 + 1e-4)) << "a dart would still fit";
       if (points.size() < 3) continue;
       EXPECT_LE(measure_spacing(points, Control()).r_c, c.radius * (1 + 1e-9));
+    }
+}
+
+TEST(PoissonDisk, IsQuickWhereTheRimOfADiskJustTouchesItself) {
+  const double farthest = std::hypot(1000.0, 1.0) / 2;
+  for (double radius : {farthest * (1 - 1e-9), farthest * 0.999, 250.0})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      Control control;
+      control.set_deadline(Control::Clock::now() + std::chrono::seconds(20));  // it took a minute once
+      Rng rng(seed);
+      const PointSet points = poisson_disk(std::make_shared<Torus>(1000, 1), {radius}, rng, control);
+      EXPECT_GE(points.size(), 1u);
+      EXPECT_LE(points.size(), 4u);
     }
 }
 
