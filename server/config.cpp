@@ -54,7 +54,7 @@ void add_settings(CLI::App& app, Config& c) {
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   setting(app, "--drain-seconds", c.drain_seconds,
           "how long a stopping server still answers new requests, with 503")
-      ->check(CLI::Validator(CLI::Range(0.0, 20.0)) & not_nan);
+      ->check(CLI::Validator(CLI::Range(0.0, 5.0)) & not_nan);
   setting(app, "--http-threads", c.http.threads, "threads that answer requests")->check(CLI::Range(1, 1024));
   setting(app, "--connection-limit", c.http.connection_limit, "open connections")->check(at_least_one);
   setting(app, "--body-limit-bytes", c.limits.body_bytes, "largest request body")->check(at_least_one);

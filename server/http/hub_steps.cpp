@@ -223,6 +223,9 @@ void Hub::close(Connection& connection) {
   std::erase(queue_, &connection);
   connection.state = State::closed;
   connection.events.reset();
+  // Said explicitly: where the process has just forked, closing our descriptor alone does not end its events,
+  // and they would point to a connection that is no more.
+  epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, connection.socket.get(), nullptr);
   connection.socket.reset();
   graveyard_.push_back(std::move(found->second));
   connections_.erase(found);
