@@ -51,6 +51,16 @@ StarMeasure measure_star(std::size_t i, std::span<const Spoke> spokes) {
 
 double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 / pi); }
 
+/// n disks of radius r_c cover the domain, so their areas add up to at least its own: a triangulation that
+/// says otherwise is not one, and must not be believed.
+void require_possible(const Spacing& s, double area) {
+  const double disks = static_cast<double>(s.n) * pi * s.r_c * s.r_c;
+  if (std::isfinite(s.beta) && disks >= area * (1 - 1e-9)) return;
+  throw Error(
+      ErrorCode::degenerate_input,
+      "the points are so nearly on one line that rounding hides their triangles; move some of them off it");
+}
+
 Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars) {
   Spacing s;
   s.n = points.size();
@@ -72,6 +82,7 @@ Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars)
     ++s.valence[m.valence];
   }
   s.beta = s.r_c / s.r_f;
+  require_possible(s, area);
   s.beta_i_mean = beta_sum / n;
   s.rho = s.r_f / spacing;
   s.coverage = s.r_c / spacing;

@@ -45,6 +45,7 @@ class PeriodicDelaunay {
     triangulation_.clear();
     triangulation_.insert(images.begin(), images.end());
     control.check();
+    if (triangulation_.dimension() < 2) return false;  // all images so far are on one line
     originals_.assign(points_.size(), {});
     for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v)
       if (v->info().turns_x == 0 && v->info().turns_y == 0) originals_[v->info().id] = v;

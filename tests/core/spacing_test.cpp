@@ -164,6 +164,20 @@ TEST(Spacing, OfPointsThatNearlyCoincideIsRightOrRefused) {
   expect_error([&] { measure_spacing(nearer, Control()); }, ErrorCode::degenerate_input, "/2", "1e-100");
 }
 
+TEST(Spacing, OfPointsOnOneLineIsRight) {
+  for (const bool upright : {false, true})
+    for (const std::size_t n : {3u, 50u, 499u, 500u, 2000u}) {
+      PointSet points{std::make_shared<Torus>(), {}};
+      for (std::size_t i = 0; i < n; ++i) {
+        const double along = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+        points.push_back(upright ? Vec3{0.3, along, 0} : Vec3{along, 0.3, 0});
+      }
+      const Spacing s = measure_spacing(points, Control(2));
+      EXPECT_NEAR(s.r_f, 1.0 / static_cast<double>(n), 1e-12);
+      EXPECT_NEAR(s.r_c, std::hypot(0.5, 0.5 / static_cast<double>(n)), 1e-9) << n;
+    }
+}
+
 TEST(Spacing, CanBeCancelled) {
   const PointSet points = random_points(1, 1, 5000, 3);
   Control control(2);
