@@ -27,7 +27,8 @@ const ordered_json& schema_of_method(const std::string& all, const std::string& 
   static const ordered_json none;
   for (const auto& choice : schema(all)["oneOf"]) {
     const std::string reference = choice["$ref"];
-    const ordered_json& candidate = schema(reference.substr(reference.rfind('/') + 1));
+    const std::string name = reference.substr(reference.rfind('/') + 1);
+    const ordered_json& candidate = schema(name);
     if (candidate["properties"]["method"]["enum"] == ordered_json::array({method})) return candidate;
   }
   ADD_FAILURE() << all << " has no " << method;
