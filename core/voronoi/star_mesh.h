@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/control.h"
+#include "core/point_set.h"
+
+namespace wellspaced {
+
+/// A place on a torus as fractions of its sides in units of 2^-32, so that subtraction wraps by itself.
+struct FixedPoint {
+  std::uint32_t x = 0, y = 0;
+  bool operator==(const FixedPoint&) const = default;
+};
+
+/// The Delaunay neighbors of one point, counter-clockwise, in one cache line; unused places repeat the first.
+struct alignas(64) Star {
+  static constexpr int most = 15;
+  std::uint32_t neighbor[most];
+  std::int32_t degree;
+
+  int find(std::uint32_t v) const;  ///< its place, or `degree`
+  int after(int k) const { return k + 1 == degree ? 0 : k + 1; }
+  int before(int k) const { return k == 0 ? degree - 1 : k - 1; }
+  void erase(int k);
+  void insert_after(int k, std::uint32_t v);
+};
+
+/// Smallest edge and largest circumradius of a triangulation, in units of d_hex.
+struct MeshRadii {
+  double shortest = 0, outermost = 0;
+};
+
+/// The Delaunay triangulation of a torus's points, kept while the points move: one star a point, flips after
+/// Lawson. What optimizers that move many points often work on.
+///
+/// Points are numbered in grid order, so that neighbors are near in memory; `original` leads back.
+/// Lengths inside are in units of d_hex, the spacing of the triangular lattice with as many points.
+///
+/// Guarantees: stars are mutual and triangles counter-clockwise at all times, whatever sequence of moves
+/// (that keep the mover's triangles positive) and flips; after `legalize_all` every edge is locally Delaunay
+/// to within 1e-9, hence the triangulation is Delaunay to that. Coordinates are rounded to 2^-33 of the
+/// sides. Errors of the constructor: those of require_usable; degenerate_input for fewer than 20 points, a
+/// torus whose shorter side is below 4 d_hex, more than 15 neighbors of one point, or empty regions so large
+/// that edges reach around the torus; cancelled, deadline_exceeded. Cost: O(n) for even sets; 72 bytes a
+/// point. Determinism: a function of the points alone. Thread safety: none.
+class StarMesh {
+ public:
+  StarMesh(const PointSet& points, const Control& control);
+
+  std::size_t size() const { return at_.size(); }
+  double spacing() const { return spacing_; }  ///< d_hex in domain lengths
+  std::uint32_t original(std::size_t i) const { return original_[i]; }
+  const Star& star(std::size_t i) const { return stars_[i]; }
+  FixedPoint at(std::size_t i) const { return at_[i]; }
+
+  /// Units of d_hex a fixed-point step, along each axis.
+  Vec2 scale() const { return scale_; }
+  /// From point i to point j, the short way, in units of d_hex.
+  Vec2 offset(std::size_t i, std::size_t j) const;
+
+  void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
+
+  /// An edge that may have ceased to be Delaunay; `legalize` looks at all that were suspected.
+  void suspect(std::uint32_t a, std::uint32_t b) { suspects_.push_back({a, b}); }
+  /// Flips until no suspected edge, nor any edge around a flip, is illegal. Marks the corners of what was
+  /// flipped. Number of flips.
+  std::size_t legalize();
+  std::size_t legalize_all(const Control& control);
+  std::size_t flips() const { return flips_; }  ///< since the beginning
+
+  /// Marks are one bit a point, for whoever sweeps over them.
+  void mark(std::size_t i) { marks_[i / 64] |= std::uint64_t{1} << (i % 64); }
+  void mark_all();
+  bool any_marked() const;
+  /// The first marked point from `from` on, its mark taken away; size() if there is none.
+  std::size_t take_marked(std::size_t from);
+
+  MeshRadii measure() const;
+
+  /// The points in their original order and numbers; those that stand where they stood get their input
+  /// coordinates back, bit for bit.
+  PointSet points(const PointSet& input) const;
+
+  /// Places and stars, to come back to.
+  struct Snapshot {
+    std::vector<FixedPoint> at;
+    std::vector<Star> stars;
+  };
+  Snapshot snapshot() const { return {at_, stars_}; }
+  void restore(const Snapshot& snapshot);
+
+ private:
+  void place_in_grid_order(const PointSet& points);
+  PointSet places_as_points(const std::shared_ptr<const Domain>& domain) const;
+  void build_stars(const PointSet& input, const Control& control);
+  void shake(double amount);
+  void collect_stars(const PointSet& points, const Control& control);
+  bool is_mutual() const;
+  bool try_flip(std::uint32_t a, std::uint32_t b);
+
+  double spacing_ = 0, width_ = 0, height_ = 0;
+  Vec2 scale_;
+  std::vector<FixedPoint> at_;
+  std::vector<std::uint32_t> original_;
+  std::vector<Star> stars_;
+  std::vector<std::uint64_t> marks_;
+  std::size_t flips_ = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> suspects_;
+};
+
+}  // namespace wellspaced
