@@ -19,7 +19,7 @@ namespace wellspaced {
 
 /// A parameter of a method, as users see it: routes validate by it, /v1/operations and OpenAPI show it.
 struct Parameter {
-  enum class Type { integer, number };
+  enum class Type { integer, number, choice };
 
   std::string name;
   Type type = Type::number;
@@ -32,9 +32,11 @@ struct Parameter {
   bool density = false;  ///< exactly one of a method's density parameters must be given
   std::string infeasible_below =
       "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
+  std::vector<std::string> choices = {};  ///< the names of a choice; its fallback is one of them, in quotes
 };
 
-/// The values given for a method's parameters; integers are exact up to 2^53.
+/// The values given for a method's parameters; integers are exact up to 2^53, a choice is its place in
+/// `choices`.
 using Arguments = std::map<std::string, double, std::less<>>;
 
 /// The value of an argument, or nothing.

@@ -1,5 +1,6 @@
 #include "proto/arguments.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wellspaced {
@@ -8,7 +9,20 @@ namespace {
 /// Above this a maximum only keeps numbers exact; the operator's limits are what users meet.
 constexpr double unbounded = 1e14;
 
+double read_choice(const Parameter& p, const nlohmann::json& value, const std::string& where) {
+  const auto found = value.is_string()
+                         ? std::find(p.choices.begin(), p.choices.end(), value.get_ref<const std::string&>())
+                         : p.choices.end();
+  if (found != p.choices.end()) return static_cast<double>(found - p.choices.begin());
+  std::string names;
+  for (const std::string& choice : p.choices) names += (names.empty() ? "" : ", ") + choice;
+  throw Error(ErrorCode::invalid_parameters,
+              "must be one of " + names + "; found " + (value.is_string() ? "another word" : describe(value)),
+              where);
+}
+
 double read_value(const Parameter& p, const nlohmann::json& value, const std::string& where) {
+  if (p.type == Parameter::Type::choice) return read_choice(p, value, where);
   const bool whole = p.type == Parameter::Type::integer;
   if (!value.is_number())
     throw Error(ErrorCode::invalid_parameters,

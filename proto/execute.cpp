@@ -48,12 +48,16 @@ PointSet points_of(const PointSource& source, Control& control) {
   return generate(std::get<GenerateRequest>(source), control, "/points/generate");
 }
 
+ordered_json argument_to_json(const Parameter& p, double value) {
+  if (p.type == Parameter::Type::choice) return p.choices.at(static_cast<std::size_t>(value));
+  return p.type == Parameter::Type::integer ? ordered_json(static_cast<std::int64_t>(value))
+                                            : ordered_json(value);
+}
+
 ordered_json parameters_to_json(const Method& method, const Arguments& arguments) {
   ordered_json out = ordered_json::object();
   for (const Parameter& p : method.parameters)
-    if (const auto value = argument(arguments, p.name))
-      out[p.name] = p.type == Parameter::Type::integer ? ordered_json(static_cast<std::int64_t>(*value))
-                                                       : ordered_json(*value);
+    if (const auto value = argument(arguments, p.name)) out[p.name] = argument_to_json(p, *value);
   return out;
 }
 

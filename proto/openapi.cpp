@@ -129,12 +129,18 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
   };
   if (operation == "optimize") {
     ordered_json names = ordered_json::array();
-    std::set<std::string> seen;
+    ordered_json schemas = ordered_json::object();
     for (const Optimizer& method : optimizers()) names.push_back(method.name);
     add("method", {{"type", "string"}, {"enum", names}, {"default", names.front()}});
     for (const Optimizer& method : optimizers())
-      for (const Parameter& p : method.parameters)
-        if (seen.insert(p.name).second) add(p.name, parameter_schema(p));
+      for (const Parameter& p : method.parameters) {
+        ordered_json schema = parameter_schema(p);
+        if (!schemas.contains(p.name))
+          schemas[p.name] = std::move(schema);
+        else if (schemas[p.name] != schema)
+          schemas[p.name].erase("default");  // it depends on the method
+      }
+    for (const auto& [name, schema] : schemas.items()) add(name, schema);
   } else {
     ordered_json names = openapi_schemas()["AnalyzeRequest"]["properties"]["measures"];
     add("measures", std::move(names));

@@ -45,6 +45,11 @@ ordered_json measures_json() {
 }  // namespace
 
 ordered_json parameter_schema(const Parameter& p) {
+  if (p.type == Parameter::Type::choice)
+    return {{"type", "string"},
+            {"description", p.description},
+            {"enum", p.choices},
+            {"default", ordered_json::parse(p.fallback)}};
   ordered_json schema = {{"type", p.type == Parameter::Type::integer ? "integer" : "number"}};
   std::string description = p.description;
   if (!p.unit.empty()) description += " (" + p.unit + ")";

@@ -23,7 +23,7 @@ struct OptimizeResult {
   PointSet points;
   std::optional<bool> converged;
   int sweeps = 0;                    ///< done in all; the best state may be an earlier one
-  std::vector<SweepRecord> history;  ///< one record a sweep, from 0 on
+  std::vector<SweepRecord> history;  ///< in the order of sweeps, from 0 on
 };
 
 }  // namespace wellspaced

@@ -76,6 +76,17 @@ TEST(Execute, OptimizeTellsWhatItReached) {
   EXPECT_NEAR(spacing.beta, best, 1e-12);
 }
 
+TEST(Execute, TellsAChoiceByItsName) {
+  const std::string request =
+      R"({"points":{"generate":{"count":300}},"method":"opt-beta","beta":0.8,"randomness":)";
+  const Result fast = run("optimize", request + R"("fast"})"),
+               gentle = run("optimize", request + R"("gentle"})");
+  EXPECT_EQ(fast.summary["parameters"].dump(), R"({"beta":0.8,"randomness":"fast"})");
+  EXPECT_EQ(fast.summary["converged"], true);
+  EXPECT_EQ(gentle.summary["converged"], true);
+  EXPECT_NE(fast.points.coordinates, gentle.points.coordinates);
+}
+
 TEST(Execute, OptimizeSaysWhenItMissedItsTarget) {
   const Result result = run("optimize", R"({"points":{"generate":{"count":300}},"beta":0.6,"max_sweeps":2})");
   EXPECT_EQ(result.summary["converged"], false);

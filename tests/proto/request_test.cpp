@@ -167,6 +167,12 @@ TEST(ReadRequest, RefusesOptimizerParametersOutsideTheirRange) {
       {"optimize", with(R"("max_sweeps":1.5)"), invalid, "/max_sweeps", "whole number"},
       {"optimize", with(R"("damping":0)"), invalid, "/damping", "in (0, 1]"},
       {"optimize", with(R"("damping":1.01)"), invalid, "/damping", "in (0, 1]; found 1.01"},
+      {"optimize", with(R"("method":"opt-beta","randomness":"wild")"), invalid, "/randomness",
+       "must be one of gentle, fast; found another word"},
+      {"optimize", with(R"("method":"opt-beta","randomness":1)"), invalid, "/randomness",
+       "found the number 1"},
+      {"optimize", with(R"("method":"opt-beta","max_visits":0)"), invalid, "/max_visits", "in [1, 1000000]"},
+      {"optimize", with(R"("method":"opt-beta","damping":0.5)"), invalid, "/damping", "max_visits"},
   });
 }
 

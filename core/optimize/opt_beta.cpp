@@ -1,0 +1,243 @@
+#include "core/optimize/opt_beta.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/analyze/spacing.h"
+#include "core/error.h"
+#include "core/optimize/push_pull_step.h"
+#include "core/voronoi/star_mesh.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double reached_at_once = 0.70;  // lower targets melt the triangulation unless approached in steps
+constexpr double floor_beta = 0.57735026918962573;
+
+void require_options(const OptBetaOptions& o) {
+  if (!(o.beta >= floor_beta))
+    throw Error(
+        ErrorCode::infeasible,
+        "no point set in the plane has beta below 1/sqrt(3) = 0.57735 (the triangular lattice); ask for more",
+        "/beta");
+  if (!(o.beta < 1))
+    throw Error(ErrorCode::invalid_parameters,
+                "the target must be below 1: every maximal Poisson-disk sampling already has beta <= 1",
+                "/beta");
+  if (o.max_visits && *o.max_visits < 1)
+    throw Error(ErrorCode::invalid_parameters, "at least one visit a point is needed", "/max_visits");
+}
+
+/// R_f in units of d_hex for a target, between the pairs that were found to work best.
+double target_r_f(double beta) {
+  constexpr std::array<std::pair<double, double>, 10> table = {{{1.0, .777},
+                                                                {.878, .82},
+                                                                {.788, .85},
+                                                                {.747, .87},
+                                                                {.716, .88},
+                                                                {.70, .895},
+                                                                {.6889, .90},
+                                                                {.6707, .92},
+                                                                {.64, .9447},
+                                                                {floor_beta, .9997}}};
+  std::size_t k = 0;
+  while (k + 2 < table.size() && beta < table[k + 1].first) ++k;
+  const auto [b0, r0] = table[k];
+  const auto [b1, r1] = table[k + 1];
+  return r0 + (r1 - r0) * (beta - b0) / (b1 - b0);
+}
+
+/// Targets a little stricter than asked for, since they are tested in float.
+PushPull targets_for(double beta) {
+  constexpr double tight = 1e-5;
+  PushPull targets;
+  const double r_f = target_r_f(beta);
+  targets.r_f = r_f * (1 + tight);
+  targets.r_c = beta * r_f * (1 - tight);
+  return targets;
+}
+
+PushPull targets_for(double beta, OptBetaOptions::Randomness randomness) {
+  PushPull targets = targets_for(beta);
+  if (beta > .73) {
+    const bool gentle = randomness == OptBetaOptions::Randomness::gentle;
+    targets.push = gentle ? .7 : .9;
+    targets.pull = gentle ? .7 : 2;
+  } else {
+    targets.push = beta > .709 ? 1.1 : 1.3;
+  }
+  return targets;
+}
+
+class Descent {
+ public:
+  Descent(const PointSet& input, const OptBetaOptions& options, Control& control)
+      : input_(input), options_(options), control_(control), mesh_(input, control), best_(mesh_.snapshot()) {
+    budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
+    record();
+  }
+
+  OptimizeResult run() {
+    if (best_beta_ > options_.beta) {
+      const double first = std::max(options_.beta, reached_at_once);
+      PushPull targets = targets_for(first, options_.randomness);
+      const bool clean = relax(targets, {budget_, std::numeric_limits<double>::infinity(), true});
+      record();
+      if (clean && options_.beta < first) lower(first);
+    }
+    return result();
+  }
+
+ private:
+  struct Allowance {
+    double visits, flips;  // in all, over all points
+    bool escalate;         // raise the weights when nothing moves forward
+  };
+
+  /// Sweeps over marked points until nothing violates the targets. False: the allowance is used up.
+  bool relax(PushPull targets, const Allowance& allowance) {
+    const double visits_before = visits_;
+    const std::size_t flips_before = mesh_.flips();
+    Calm calm;
+    mesh_.mark_all();
+    for (int sweep = 1;; ++sweep) {
+      const std::size_t moves = sweep_once(targets);
+      ++sweeps_;
+      if (!mesh_.any_marked()) {
+        mesh_.legalize_all(control_);
+        if (!mesh_.any_marked()) return true;
+      }
+      if (std::has_single_bit(static_cast<unsigned>(sweep)) || sweep % 64 == 0) record();
+      if (allowance.escalate && calm.lasts(moves, mesh_.size())) {
+        targets.push = std::min(1.6, targets.push * 1.08);
+        targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
+      }
+      if (visits_ - visits_before > allowance.visits || visits_ > budget_) return false;
+      if (static_cast<double>(mesh_.flips() - flips_before) > allowance.flips) return false;
+    }
+  }
+
+  /// Frozen: 150 sweeps in which the number of moves made no new 5% low while more than .5% still move.
+  class Calm {
+   public:
+    bool lasts(std::size_t moves, std::size_t n) {
+      const auto m = static_cast<double>(moves);
+      if (m < .95 * fewest_) {
+        fewest_ = m;
+        sweeps_ = 0;
+        return false;
+      }
+      if (++sweeps_ < 150 || m <= .005 * static_cast<double>(n)) return false;
+      fewest_ = m;
+      sweeps_ = 0;
+      return true;
+    }
+
+   private:
+    double fewest_ = std::numeric_limits<double>::infinity();
+    int sweeps_ = 0;
+  };
+
+  std::size_t sweep_once(const PushPull& targets) {
+    constexpr std::size_t between_checks = 4096;
+    std::size_t moves = 0, count = 0;
+    for (std::size_t i = mesh_.take_marked(0); i < mesh_.size(); i = mesh_.take_marked(i + 1)) {
+      if (++count % between_checks == 0) control_.check();
+      moves += push_pull_step(mesh_, i, targets) ? 1 : 0;
+    }
+    control_.check();
+    visits_ += static_cast<double>(count);
+    return moves;
+  }
+
+  /// Below what can be reached at once: small steps, each from the last state that was clean.
+  void lower(double beta) {
+    constexpr std::array<std::pair<double, double>, 7> weights = {
+        {{1.3, 1.7}, {1.2, 1.6}, {1.3, 1.5}, {1.15, 1.4}, {1.4, 1.5}, {1.2, 1.9}, {1.05, 1.3}}};
+    constexpr double largest_step = .004, smallest_step = 2e-4, flips_a_point = 20;
+    const auto n = static_cast<double>(mesh_.size());
+    StarMesh::Snapshot clean = mesh_.snapshot();
+    double step = largest_step;
+    std::size_t choice = 0;
+    for (int failures = 0; beta > options_.beta && visits_ < budget_;) {
+      const double next = std::max(options_.beta, beta - step);
+      PushPull targets = targets_for(next);
+      std::tie(targets.push, targets.pull) = weights[choice];
+      targets.look_across = true;
+      const double visits = std::max(700 * n, 430 * n + .12 * visits_);
+      if (relax(targets, {visits, flips_a_point * n, false})) {
+        beta = next;
+        clean = mesh_.snapshot();
+        record();
+        failures = 0;
+        step = std::min(largest_step, step * 1.4);
+        continue;
+      }
+      choice = (choice + 1) % weights.size();
+      if (++failures >= 2) {
+        step = std::max(smallest_step, step / 2);
+        failures = 0;
+      }
+      mesh_.restore(clean);
+    }
+  }
+
+  /// Measures the state, and keeps it if it is the best so far.
+  void record() {
+    const MeshRadii radii = mesh_.measure();
+    const double beta = radii.outermost / radii.shortest, d = mesh_.spacing();
+    if (!history_.empty() && history_.back().sweep == sweeps_) history_.pop_back();
+    history_.push_back({sweeps_, beta, radii.outermost * d, radii.shortest * d});
+    if (beta < best_beta_) {
+      best_beta_ = beta;
+      if (sweeps_ > 0) best_ = mesh_.snapshot();
+    }
+    control_.report(
+        {std::min(1.0, visits_ / budget_), sweeps_, beta, radii.outermost * d, radii.shortest * d});
+  }
+
+  OptimizeResult result() {
+    mesh_.restore(best_);
+    OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_)};
+    // Independently of the triangulation that was kept.
+    double beta = measure_ratio(result.points, control_).beta();
+    // A set that isn't better is not worth having; the first record is the input's to within its rounding.
+    if (!(beta < 0.999 * result.history.front().beta)) {
+      const double before = measure_ratio(input_, control_).beta();
+      if (!(beta < before)) {
+        result.points = input_;
+        beta = before;
+      }
+    }
+    result.converged = beta <= options_.beta;
+    return result;
+  }
+
+  const PointSet& input_;
+  const OptBetaOptions& options_;
+  Control& control_;
+  StarMesh mesh_;
+  StarMesh::Snapshot best_;
+  double best_beta_ = std::numeric_limits<double>::infinity();
+  double visits_ = 0, budget_ = 0;
+  int sweeps_ = 0;
+  std::vector<SweepRecord> history_;
+};
+
+}  // namespace
+
+int allowed_visits(const OptBetaOptions& options) {
+  return options.max_visits.value_or(options.beta < reached_at_once ? 20000 : 250);
+}
+
+OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control) {
+  require_options(options);
+  return Descent(input, options, control).run();
+}
+
+}  // namespace wellspaced

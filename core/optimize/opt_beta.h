@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "core/control.h"
+#include "core/optimize/optimize.h"
+
+namespace wellspaced {
+
+struct OptBetaOptions {
+  enum class Randomness { gentle, fast };
+
+  double beta = 0.75;                          ///< target for the global ratio, in [1/sqrt(3), 1)
+  Randomness randomness = Randomness::gentle;  ///< fast: half the time above .73, and less random
+  std::optional<int> max_visits;  ///< visits a point after which the best state is returned; default: 250 for
+                                  ///< a beta of .70 or more, else 20,000
+};
+
+/// What max_visits is when it is not given.
+int allowed_visits(const OptBetaOptions& options);
+
+/// opt-beta, this project's own: the global ratio by absolute radii. Target radii R_f and R_c = beta R_f
+/// follow from beta; points that violate one are pushed and pulled until none does, on a Delaunay
+/// triangulation that is kept while they move.
+///
+/// Below .70 beta is lowered step by step, each from the state that the last one reached; a step that fails
+/// is undone and tried again with other weights, then halved.
+///
+/// Guarantees: those of OptimizeResult; points that violate nothing on the way are returned bit for bit.
+/// `history` holds the sweeps 0, 1, 2, 4, ... and every 64th, a sweep visiting only points that are marked.
+/// Errors: those of StarMesh; infeasible or invalid_parameters at /beta, /max_visits; cancelled,
+/// deadline_exceeded.
+/// Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to .75, 40 to .70 where fast, two
+/// to three times as many where gentle; 110 bytes a point.
+/// Determinism: sequential; visits, not time, end it.
+OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control);
+
+}  // namespace wellspaced

@@ -1,0 +1,164 @@
+#include "core/optimize/opt_beta.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/analyze/spacing.h"
+#include "core/generate/generate.h"
+#include "core/generate/lattice.h"
+#include "core/generate/poisson_disk.h"
+#include "tests/support/oracle.h"
+
+namespace wellspaced {
+namespace {
+
+using testing::brute_r_c;
+using testing::brute_r_f;
+using testing::expect_error;
+using testing::random_points;
+using Randomness = OptBetaOptions::Randomness;
+
+PointSet mps(std::uint64_t count, std::uint64_t seed, double height = 1) {
+  Rng rng(seed);
+  Control control;
+  return poisson_disk(std::make_shared<Torus>(1, height), {poisson_disk_radius(height, count)}, rng, control);
+}
+
+OptBetaOptions to(double beta, Randomness randomness = Randomness::gentle) { return {beta, randomness, {}}; }
+
+TEST(OptBeta, ReachesItsTargetByBruteForce) {
+  for (const double beta : {0.9, 0.788, 0.747, 0.70})
+    for (const Randomness randomness : {Randomness::gentle, Randomness::fast}) {
+      SCOPED_TRACE(beta);
+      const PointSet input = mps(300, 1);
+      Control control;
+      const OptimizeResult result = opt_beta(input, to(beta, randomness), control);
+      ASSERT_EQ(result.converged, true);
+      ASSERT_EQ(result.points.size(), input.size());
+      const double tolerance = 4e-7;  // so that this proves r_c <= beta r_f
+      EXPECT_LE((brute_r_c(result.points, tolerance) + tolerance) / brute_r_f(result.points), beta);
+      EXPECT_NEAR(result.history.back().beta, measure_spacing(result.points, control).beta, 1e-6);
+    }
+}
+
+TEST(OptBeta, ReachesSeventyHundredthsOnManySizesAndTori) {
+  Control control;
+  for (const std::uint64_t count : {50, 100, 400, 2000})
+    for (const double height : {1.0, 2.5})
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        SCOPED_TRACE(::testing::Message() << count << " points, height " << height << ", seed " << seed);
+        const OptimizeResult result = opt_beta(mps(count, seed, height), to(0.70), control);
+        EXPECT_EQ(result.converged, true);
+        EXPECT_LE(measure_spacing(result.points, control).beta, 0.70);
+      }
+}
+
+TEST(OptBeta, DescendsBelowTheFieldsFloor) {
+  Control control;
+  const OptimizeResult result = opt_beta(mps(1000, 3), to(0.68), control);
+  EXPECT_EQ(result.converged, true);
+  EXPECT_LE(measure_spacing(result.points, control).beta, 0.68);
+}
+
+TEST(OptBeta, KeepsTheBestStateWhenItsVisitsRunOut) {
+  const PointSet input = mps(500, 2);
+  Control control;
+  for (const int visits : {1, 3, 10, 100}) {
+    const OptimizeResult result = opt_beta(input, {0.58, Randomness::fast, visits}, control);
+    EXPECT_EQ(result.converged, false);
+    double best = std::numeric_limits<double>::infinity();
+    for (const SweepRecord& s : result.history) best = std::min(best, s.beta);
+    EXPECT_NEAR(measure_spacing(result.points, control).beta, best, 1e-6) << visits;
+    EXPECT_LE(best, result.history.front().beta);
+  }
+}
+
+TEST(OptBeta, LeavesAloneWhatIsGoodEnough) {
+  Control control;
+  const PointSet lattice = triangular_lattice(std::make_shared<Torus>(1, std::sqrt(3.0)), 800, control);
+  const OptimizeResult result = opt_beta(lattice, to(0.6), control);
+  EXPECT_EQ(result.converged, true);
+  EXPECT_EQ(result.sweeps, 0);
+  EXPECT_EQ(result.points.coordinates, lattice.coordinates);
+}
+
+TEST(OptBeta, ImprovesACocircularLattice) {
+  Control control;
+  const PointSet lattice = square_lattice(std::make_shared<Torus>(), 400, control);
+  const OptimizeResult result = opt_beta(lattice, to(0.70), control);
+  EXPECT_EQ(result.converged, true);
+  EXPECT_LE(measure_spacing(result.points, control).beta, 0.70);
+}
+
+TEST(OptBeta, IsNeverWorseThanItsInput) {
+  Control control;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PointSet start = random_points(1, 1, 200, seed);
+    try {
+      const OptimizeResult result = opt_beta(start, {0.75, Randomness::gentle, 40}, control);
+      EXPECT_LE(measure_spacing(result.points, control).beta, measure_spacing(start, control).beta);
+      for (std::size_t i = 0; i < start.size(); ++i)
+        EXPECT_FALSE(start.domain->why_outside(result.points[i]));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::degenerate_input) << error.what();
+    }
+  }
+}
+
+TEST(OptBeta, KeepsPointsThatViolateNothing) {
+  const PointSet input = mps(2000, 4);
+  Control control;
+  const OptimizeResult result = opt_beta(input, to(0.95), control);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < input.size(); ++i) kept += result.points[i] == input[i] ? 1 : 0;
+  EXPECT_EQ(result.converged, true);
+  EXPECT_GT(kept, input.size() / 20);
+  EXPECT_LT(kept, input.size());
+}
+
+TEST(OptBeta, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const PointSet input = mps(1500, 4);
+  Control one(1), four(4);
+  const auto a = opt_beta(input, to(0.72), one), b = opt_beta(input, to(0.72), four);
+  EXPECT_EQ(a.points.coordinates, b.points.coordinates);
+}
+
+TEST(OptBeta, ReportsMonotoneProgress) {
+  struct Watch final : Control {
+    void on_progress(const Progress& p) override {
+      EXPECT_GE(p.fraction, last);
+      EXPECT_LE(p.fraction, 1);
+      last = p.fraction;
+      ++reports;
+    }
+    double last = 0;
+    int reports = 0;
+  } watch;
+  opt_beta(mps(200, 5), {0.6, Randomness::fast, 300}, watch);
+  EXPECT_GT(watch.reports, 5);
+}
+
+TEST(OptBeta, RefusesWhatCannotBe) {
+  const PointSet input = mps(100, 1);
+  Control control;
+  expect_error([&] { opt_beta(input, to(0.5), control); }, ErrorCode::infeasible, "/beta", "0.57735");
+  expect_error([&] { opt_beta(input, to(1), control); }, ErrorCode::invalid_parameters, "/beta");
+  expect_error([&] { opt_beta(input, to(std::nan("")), control); }, ErrorCode::infeasible, "/beta");
+  const OptBetaOptions idle{0.8, Randomness::fast, 0};
+  expect_error([&] { opt_beta(input, idle, control); }, ErrorCode::invalid_parameters, "/max_visits");
+  expect_error([&] { opt_beta(random_points(1, 1, 2, 1), to(0.8), control); }, ErrorCode::degenerate_input,
+               "");
+}
+
+TEST(OptBeta, CanBeCancelled) {
+  const PointSet input = mps(1000, 1);
+  struct CancelAtFirstReport final : Control {
+    void on_progress(const Progress&) override { cancel(); }
+  } control;
+  expect_error([&] { opt_beta(input, to(0.6), control); }, ErrorCode::cancelled, "");
+}
+
+}  // namespace
+}  // namespace wellspaced
