@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -35,15 +37,18 @@ class Control {
   unsigned threads() const { return threads_; }
   void cancel() { cancelled_ = true; }
   bool cancelled() const { return cancelled_ || (parent_ != nullptr && parent_->cancelled()); }
-  void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
+  /// `message` is for the person whose work it ends: what happened, and the way out.
+  void set_deadline(Clock::time_point deadline, std::string message = "the time limit for a job has passed") {
+    deadline_ = deadline;
+    deadline_message_ = std::move(message);
+  }
 
   /// Call at least every few milliseconds of work.
   /// Errors: cancelled, deadline_exceeded.
   void check() const {
     if (cancelled_) throw Error(ErrorCode::cancelled, "the computation was cancelled");
     if (parent_ != nullptr) parent_->check();
-    if (Clock::now() > deadline_)
-      throw Error(ErrorCode::deadline_exceeded, "the time limit for a job has passed");
+    if (Clock::now() > deadline_) throw Error(ErrorCode::deadline_exceeded, deadline_message_);
   }
 
   /// Passes progress on; a fraction lower than the last one is lifted to it.
@@ -61,6 +66,7 @@ class Control {
   const Control* parent_;
   std::atomic<bool> cancelled_ = false;
   Clock::time_point deadline_ = Clock::time_point::max();
+  std::string deadline_message_;
   double last_fraction_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/sort.h"
 
 namespace wellspaced {
 namespace {
@@ -40,11 +41,12 @@ Vec3 without_negligible(Vec3 p) {
 }
 
 /// The first point (in input order) that repeats an earlier one, and that earlier one.
-std::optional<std::pair<std::uint32_t, std::uint32_t>> first_repetition(const PointSet& points) {
+std::optional<std::pair<std::uint32_t, std::uint32_t>> first_repetition(const PointSet& points,
+                                                                        const Control& control) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto place = [&](std::uint32_t i) { return without_negligible(points[i]); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  sort(order.begin(), order.end(), control, [&](std::uint32_t a, std::uint32_t b) {
     const Vec3 p = place(a), q = place(b);
     return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });
@@ -61,12 +63,12 @@ double hexagonal_spacing(double area, std::size_t n) {
   return std::sqrt(2 * area / (std::sqrt(3.0) * static_cast<double>(n)));
 }
 
-void require_usable(const PointSet& points) {
+void require_usable(const PointSet& points, const Control& control) {
   if (points.size() < 3)
     throw Error(ErrorCode::degenerate_input,
                 "the point set has " + std::to_string(points.size()) + " points; at least 3 are needed");
   require_in_domain(points);
-  if (const auto repeat = first_repetition(points))
+  if (const auto repeat = first_repetition(points, control))
     throw Error(ErrorCode::degenerate_input,
                 "the point repeats point " + std::to_string(repeat->second) +
                     " (to within 1e-100), so the conflict radius r_f is 0 and beta is not defined; remove "

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/control.h"
 #include "core/domain/domain.h"
 #include "core/vec.h"
 
@@ -47,6 +48,7 @@ double hexagonal_spacing(double area, std::size_t n);
 /// infinity, or a point outside the domain; degenerate_input at /17 for a point that repeats an earlier one
 /// to within 1e-100 (r_f = 0).
 /// Cost: O(n log n).
-void require_usable(const PointSet& points);
+/// cancelled, deadline_exceeded.
+void require_usable(const PointSet& points, const Control& control);
 
 }  // namespace wellspaced

@@ -43,9 +43,22 @@ PointSet generate(const GenerateRequest& request, Control& control, const std::s
   return at(where, [&] { return request.method->run(request.domain, request.arguments, rng, control); });
 }
 
+/// Where a request says how many points it wants.
+std::string density_pointer(const GenerateRequest& request) {
+  return request.arguments.count("radius") != 0 ? "/radius" : "/count";
+}
+
+/// For work that needs three points at least. How many a radius gives is known only now.
 PointSet points_of(const PointSource& source, Control& control) {
   if (const auto* points = std::get_if<PointSet>(&source)) return *points;
-  return generate(std::get<GenerateRequest>(source), control, "/points/generate");
+  const auto& request = std::get<GenerateRequest>(source);
+  PointSet points = generate(request, control, "/points/generate");
+  if (points.size() < 3)
+    throw Error(ErrorCode::degenerate_input,
+                "this gives " + std::to_string(points.size()) +
+                    " points, but at least 3 are needed here; ask for more of them, that is a smaller radius",
+                "/points/generate" + density_pointer(request));
+  return points;
 }
 
 ordered_json argument_to_json(const Parameter& p, double value) {
@@ -89,7 +102,7 @@ ordered_json history_to_json(const std::vector<SweepRecord>& history) {
 Result run(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.02), second(control, 0.02, 0.98);
   const PointSet input = points_of(request.points, first);
-  at("/points", [&] { require_usable(input); });
+  at("/points", [&] { require_usable(input, control); });
   OptimizeResult optimized = request.method->run(input, request.arguments, second);
   const Spacing s = measure_spacing(optimized.points, control);
   Result result{"optimize", {}, std::move(optimized.points), ""};

@@ -97,13 +97,17 @@ Document read_document(const RawRequest& raw, const Limits& limits) {
 }
 
 template <class Row>
-const Row& find_row(std::span<const Row> rows, const std::string& name, const std::string& where) {
+std::string names_of(std::span<const Row> rows) {
   std::string names;
-  for (const Row& row : rows) {
+  for (const Row& row : rows) names += (names.empty() ? "" : ", ") + row.name;
+  return names;
+}
+
+template <class Row>
+const Row& find_row(std::span<const Row> rows, const std::string& name, const std::string& where) {
+  for (const Row& row : rows)
     if (row.name == name) return row;
-    names += (names.empty() ? "" : ", ") + row.name;
-  }
-  throw Error(ErrorCode::invalid_parameters, "unknown name; there are: " + names, where);
+  throw Error(ErrorCode::invalid_parameters, "unknown name; there are: " + names_of(rows), where);
 }
 
 std::shared_ptr<const Domain> domain_field(Fields& fields) {
@@ -146,7 +150,7 @@ PointSet inline_points(std::shared_ptr<const Domain> domain, Document& document)
                 document.points_pointer);
   PointSet points{std::move(domain), std::move(table.values)};
   try {
-    require_usable(points);
+    require_usable(points, Control());
   } catch (const Error& error) {
     throw error.within(document.points_pointer);
   }
@@ -220,7 +224,9 @@ std::vector<const Measure*> measures_field(Fields& fields) {
   if (value == nullptr) return {&measures().front()};
   if (!value->is_array() || value->empty())
     throw Error(ErrorCode::invalid_parameters,
-                "expected an array of one or more names, found " + describe(*value), "/measures");
+                "expected an array of one or more names (there are: " + names_of(measures()) + "), found " +
+                    (value->is_array() ? "an empty one" : describe(*value)),
+                "/measures");
   std::vector<const Measure*> wanted;
   for (std::size_t k = 0; k < value->size(); ++k) {
     const std::string where = "/measures/" + std::to_string(k);

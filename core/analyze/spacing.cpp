@@ -97,7 +97,7 @@ Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars)
 }
 
 std::vector<StarMeasure> measure_stars(const PointSet& points, const Control& control) {
-  require_usable(points);
+  require_usable(points, control);
   std::vector<StarMeasure> stars(points.size());
   visit_stars(points, control,
               [&](std::size_t i, std::span<const Spoke> spokes) { stars[i] = measure_star(i, spokes); });

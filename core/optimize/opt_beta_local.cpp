@@ -9,6 +9,7 @@
 #include "core/analyze/spacing.h"
 #include "core/error.h"
 #include "core/optimize/nelder_mead.h"
+#include "core/sort.h"
 #include "core/voronoi/cell_finder.h"
 
 namespace wellspaced {
@@ -34,11 +35,11 @@ void require_options(const OptBetaLocalOptions& o) {
 }
 
 /// Row by row, left to right; rows as high as the spacing.
-std::vector<std::uint32_t> scan_line_order(const PointSet& points, double spacing) {
+std::vector<std::uint32_t> scan_line_order(const PointSet& points, double spacing, const Control& control) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto row = [&](Vec3 p) { return std::floor(p.y / spacing); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  sort(order.begin(), order.end(), control, [&](std::uint32_t a, std::uint32_t b) {
     const Vec3 p = points[a], q = points[b];
     if (row(p) != row(q)) return row(p) < row(q);
     return p.x != q.x ? p.x < q.x : a < b;
@@ -63,11 +64,11 @@ SweepRecord record(int sweep, const PointSet& points, const Control& control) {
 
 class Sweeper {
  public:
-  Sweeper(PointSet& points, double damping)
+  Sweeper(PointSet& points, double damping, const Control& control)
       : points_(points),
         spacing_(hexagonal_spacing(points.domain->area(), points.size())),
         damping_(damping),
-        order_(scan_line_order(points, spacing_)),
+        order_(scan_line_order(points, spacing_, control)),
         grid_(points, spacing_),
         finder_(points, grid_, 2.5 * spacing_) {
     require_local(grid_);
@@ -105,10 +106,10 @@ class Sweeper {
 
 OptimizeResult opt_beta_local(const PointSet& input, const OptBetaLocalOptions& options, Control& control) {
   require_options(options);
-  require_usable(input);
+  require_usable(input, control);
   PointSet points = input;
   // Without damping, sweeps towards an easy target overshoot and make the global ratio worse.
-  Sweeper sweeper(points, options.damping.value_or(options.beta > 0.9 ? 0.7 : 1.0));
+  Sweeper sweeper(points, options.damping.value_or(options.beta > 0.9 ? 0.7 : 1.0), control);
   OptimizeResult result{input, false, 0, {record(0, input, control)}};
   double best_beta = result.history[0].beta;
   while (best_beta > options.beta && result.sweeps < options.max_sweeps) {

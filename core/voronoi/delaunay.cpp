@@ -6,7 +6,10 @@
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include "core/parallel.h"
 #include "core/voronoi/cell.h"
@@ -43,8 +46,7 @@ class PeriodicDelaunay {
         add_images(tx, ty, border, images);
       }
     triangulation_.clear();
-    triangulation_.insert(images.begin(), images.end());
-    control.check();
+    insert(images, control);
     if (triangulation_.dimension() < 2) return false;  // all images so far are on one line
     originals_.assign(points_.size(), {});
     for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v)
@@ -74,6 +76,22 @@ class PeriodicDelaunay {
   }
 
  private:
+  /// Near ones after each other, as CGAL's own insertion of a range does, which can't be interrupted.
+  void insert(std::vector<std::pair<Kernel::Point_2, Image>>& images, const Control& control) {
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<
+        Kernel, CGAL::First_of_pair_property_map<std::pair<Kernel::Point_2, Image>>>;
+    CGAL::spatial_sort(images.begin(), images.end(), Traits());
+    control.check();
+    constexpr std::size_t between_checks = 4096;
+    Triangulation::Face_handle near;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      if (k % between_checks == 0) control.check();
+      const auto vertex = triangulation_.insert(images[k].first, near);
+      vertex->info() = images[k].second;
+      near = vertex->face();
+    }
+  }
+
   void add_images(int tx, int ty, double border,
                   std::vector<std::pair<Kernel::Point_2, Image>>& images) const {
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -71,7 +71,7 @@ void Star::insert_after(int k, std::uint32_t v) {
 }
 
 StarMesh::StarMesh(const PointSet& points, const Control& control) {
-  require_usable(points);
+  require_usable(points, control);
   const Box box = points.domain->box();
   width_ = box.size.x;
   height_ = box.size.y;
@@ -127,8 +127,9 @@ void StarMesh::build_stars(const PointSet& input, const Control& control) {
     if (nudge > 0) shake(nudge);
     const PointSet rounded = places_as_points(input.domain);
     try {
-      require_usable(rounded);
-    } catch (const Error&) {
+      require_usable(rounded, control);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::degenerate_input) throw;
       refuse("two of the points are nearer to each other than a 2^32nd of the torus");
     }
     collect_stars(rounded, control);

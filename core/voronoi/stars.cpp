@@ -24,6 +24,8 @@ void visit_stars_by_kernel(const PointSet& points, const Control& control, const
     CellFinder finder(points, grid, 2.3 * spacing);
     std::vector<Spoke> spokes;
     for (std::size_t i = begin; i < end; ++i) {
+      // A block may take seconds where very many points are near each other.
+      if (i % 16 == 0) control.check();
       finder.load(static_cast<std::uint32_t>(i));
       spokes.clear();
       for (const Cell::Corner& corner : finder.cell_at({}).corners()) {

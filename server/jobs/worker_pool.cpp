@@ -228,7 +228,14 @@ bool WorkerPool::claim_and_run() {
 
 WorkerPool::RunPointer WorkerPool::begin(Claim claim) {
   auto run = std::make_shared<Run>(std::move(claim), options_.threads_per_job);
-  run->set_deadline(Clock::now() + milliseconds(options_.job_limit_ms));
+  if (run->claim.spec.attached && options_.attached_limit_ms < options_.job_limit_ms) {
+    run->set_deadline(
+        Clock::now() + milliseconds(options_.attached_limit_ms),
+        "this takes longer than a synchronous answer may, and longer than was estimated; send the header "
+        "Prefer: respond-async and fetch the result later");
+  } else {
+    run->set_deadline(Clock::now() + milliseconds(options_.job_limit_ms));
+  }
   {
     const std::lock_guard guard(mutex_);
     runs_.push_back(run);

@@ -30,7 +30,8 @@ struct WorkerPoolOptions {
   unsigned workers = 1;
   unsigned threads_per_job = 1;
   std::int64_t job_limit_ms = 3'600'000;
-  std::int64_t lease_ms = 30'000;       ///< as in JobLimits; renewed each third of it
+  std::int64_t attached_limit_ms = 60'000;  ///< for jobs whose client waits for them
+  std::int64_t lease_ms = 30'000;           ///< as in JobLimits; renewed each third of it
   std::int64_t claim_every_ms = 3'000;  ///< looks for leases of dead processes and jobs that others submitted
   std::int64_t progress_every_ms = 500;
   std::int64_t expire_every_ms = 60'000;

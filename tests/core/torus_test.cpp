@@ -59,28 +59,36 @@ TEST(Torus, StepsAndRandomPointsStayInside) {
 
 TEST(RequireUsable, NamesThePointThatCannotBeUsed) {
   PointSet points{std::make_shared<Torus>(), {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}};
-  EXPECT_NO_THROW(require_usable(points));
+  EXPECT_NO_THROW(require_usable(points, Control()));
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < points.coordinates.size(); ++k) {
     const std::string row = "/" + std::to_string(k / 2);
     PointSet bad = points;
     for (double value : {nan, infinity, -infinity}) {
       bad.coordinates[k] = value;
-      expect_error([&] { require_usable(bad); }, ErrorCode::invalid_parameters,
+      expect_error([&] { require_usable(bad, Control()); }, ErrorCode::invalid_parameters,
                    row + "/" + std::to_string(k % 2));
     }
     bad.coordinates[k] = 1.0;
-    expect_error([&] { require_usable(bad); }, ErrorCode::invalid_parameters, row, "half-open");
+    expect_error([&] { require_usable(bad, Control()); }, ErrorCode::invalid_parameters, row, "half-open");
   }
 }
 
 TEST(RequireUsable, RefusesFewerThanThreePointsAndRepetitions) {
   PointSet two{std::make_shared<Torus>(), {0.1, 0.2, 0.3, 0.4}};
-  expect_error([&] { require_usable(two); }, ErrorCode::degenerate_input, "", "at least 3");
+  expect_error([&] { require_usable(two, Control()); }, ErrorCode::degenerate_input, "", "at least 3");
   PointSet repeated{std::make_shared<Torus>(), {0.1, 0.2, 0.3, 0.4, 0.5, 0.5, 0.1, 0.2}};
-  expect_error([&] { require_usable(repeated); }, ErrorCode::degenerate_input, "/3", "repeats point 0");
+  expect_error([&] { require_usable(repeated, Control()); }, ErrorCode::degenerate_input, "/3",
+               "repeats point 0");
   PointSet signed_zero{std::make_shared<Torus>(), {0.0, 0.2, 0.3, 0.4, -0.0, 0.2}};
-  expect_error([&] { require_usable(signed_zero); }, ErrorCode::degenerate_input, "/2");
+  expect_error([&] { require_usable(signed_zero, Control()); }, ErrorCode::degenerate_input, "/2");
+}
+
+TEST(RequireUsable, StopsWhenItIsCancelled) {
+  const PointSet points = testing::random_points(1, 1, 20000, 1);
+  Control control;
+  control.cancel();
+  testing::expect_error([&] { require_usable(points, control); }, ErrorCode::cancelled, "");
 }
 
 }  // namespace

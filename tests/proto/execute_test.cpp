@@ -145,7 +145,8 @@ TEST(Execute, PointsToWhatItCouldNotWorkOn) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(ErrorCode::degenerate_input));
-    EXPECT_EQ(error.where(), "/points");
+    EXPECT_EQ(error.where(), "/points/generate/radius");
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("at least 3"));
   }
 }
 
