@@ -29,13 +29,18 @@ PointSet tile(const std::shared_ptr<const Torus>& torus, GridShape grid,
 }  // namespace
 
 GridShape fit_grid(const Torus& torus, double cells, double cell_aspect) {
+  // Along the axis with fewer cells every number near the ideal one is tried; the other axis makes up the
+  // count.
   const double ideal_rows = std::sqrt(cells * torus.height() / (torus.width() * cell_aspect));
+  const bool few_rows = ideal_rows * ideal_rows <= cells;
+  const double ideal = few_rows ? ideal_rows : cells / ideal_rows;
   GridShape best;
   double best_cost = INFINITY;
-  const double from = std::max(1.0, std::floor(ideal_rows * 0.9) - 1), to = std::ceil(ideal_rows * 1.1) + 1;
-  for (double rows = from; rows <= to; ++rows) {
-    for (const double columns : {std::floor(cells / rows), std::ceil(cells / rows)}) {
-      if (columns < 1) continue;
+  const double from = std::max(1.0, std::floor(ideal * 0.9) - 1), to = std::ceil(ideal * 1.1) + 1;
+  for (double few = from; few <= to; ++few) {
+    for (const double many : {std::floor(cells / few), std::ceil(cells / few)}) {
+      if (many < 1) continue;
+      const double rows = few_rows ? few : many, columns = few_rows ? many : few;
       const double stretch = torus.height() / rows / (torus.width() / columns * cell_aspect);
       // Ratios stand in for logarithms: max(t, 1/t) - 1 is |log t| to first order, and needs no libm.
       const auto off = [](double t) { return std::max(t, 1 / t) - 1; };

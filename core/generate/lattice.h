@@ -17,8 +17,8 @@ struct GridShape {
 
 /// The columns x rows nearest to `cells` cells of the given height / width ratio.
 ///
-/// Guarantees: among the row counts within a tenth of the ideal one, the shape that is least off in number
-/// and in stretch.
+/// Guarantees: of the shapes whose shorter axis has within a tenth of the ideal number, the one least off in
+/// number and in stretch; columns * rows is within one row or column of `cells`, and at least 1.
 GridShape fit_grid(const Torus& torus, double cells, double cell_aspect);
 
 /// Triangular (hexagonally packed) lattice: beta = 1/sqrt(3). Rows alternate by half a spacing.

@@ -1,6 +1,8 @@
 #include "core/generate/generate.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -135,6 +137,18 @@ TEST(WhiteNoise, IsUniform) {
   int quarters[4] = {};
   for (std::size_t i = 0; i < points.size(); ++i) ++quarters[(points[i].x >= 1) + 2 * (points[i].y >= 0.5)];
   for (int count : quarters) EXPECT_NEAR(count, 10000, 440);  // five standard deviations
+}
+
+TEST(FitGrid, KeepsTheCountOnEveryTorus) {
+  for (const double height : {0.001, 0.02, 0.7, 1.0, 1.3, 50.0, 1000.0})
+    for (const double cells : {1.0, 3.0, 10.0, 77.0, 1000.0, 12345.0}) {
+      SCOPED_TRACE(::testing::Message() << "height " << height << ", cells " << cells);
+      const GridShape grid = fit_grid(Torus(1, height), cells, 1);
+      const auto columns = static_cast<double>(grid.columns), rows = static_cast<double>(grid.rows);
+      EXPECT_LT(std::fabs(columns * rows - cells), std::min(columns, rows));
+      const GridShape turned = fit_grid(Torus(height, 1), cells, 1);
+      EXPECT_EQ(turned.columns * turned.rows, grid.columns * grid.rows);
+    }
 }
 
 }  // namespace
