@@ -122,6 +122,8 @@ void split_address(Config& config) {
   config.http.port = port;
 }
 
+constexpr int usage_error = 2;
+
 /// The settings that the environment holds, as flags to be read before the command line's own. CLI11 itself
 /// would let the file win over them, and would not look there for --config.
 std::vector<std::string> flags_from_environment(const CLI::App& app) {
@@ -170,6 +172,10 @@ Invocation read_invocation(int argc, const char* const* argv) {
   serve->callback([&i] { i.command = Invocation::Command::serve; });
   add_run(app, i);
   app.require_subcommand(0, 1);
+  app.footer(
+      "Exit status: 0 done; 1 the request was refused or its work failed; 2 wrong usage, or a file that "
+      "can't be "
+      "read or written.");
   try {
     const std::vector<std::string> flags = flags_from_environment(app);
     std::vector<const char*> words(argv, argv + argc);
@@ -177,7 +183,7 @@ Invocation read_invocation(int argc, const char* const* argv) {
     for (const std::string& flag : flags) words.insert(words.begin() + 1, flag.c_str());
     app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
-    i.exit_code = app.exit(error);
+    i.exit_code = app.exit(error) == 0 ? 0 : usage_error;  // the library's own codes say nothing to users
     i.command = Invocation::Command::nothing;
     return i;
   }
@@ -187,7 +193,7 @@ Invocation read_invocation(int argc, const char* const* argv) {
   if (version_wanted) i.command = Invocation::Command::version;
   if (i.command == Invocation::Command::nothing) {
     std::fputs(app.help().c_str(), stderr);
-    i.exit_code = 2;
+    i.exit_code = usage_error;
   }
   return i;
 }

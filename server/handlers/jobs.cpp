@@ -10,11 +10,19 @@
 #include "server/handlers/answer.h"
 #include "server/handlers/waiting.h"
 #include "server/http/range.h"
+#include "server/jobs/job_id.h"
 
 namespace wellspaced {
 namespace {
 
 constexpr int most_jobs_a_page = 500;
+
+std::string read_operation(const std::string& name) {
+  for (const char* known : {"generate", "optimize", "analyze"})
+    if (name == known) return name;
+  throw Error(ErrorCode::invalid_parameters, "unknown operation; there are: generate, optimize, analyze",
+              "/operation");
+}
 
 JobFilter read_filter(const http::Request& request) {
   JobFilter filter;
@@ -26,8 +34,11 @@ JobFilter read_filter(const http::Request& request) {
         throw Error(error.code(), error.what(), "/status");
       }
     } else if (name == "operation") {
-      filter.operation = value;
+      filter.operation = read_operation(value);
     } else if (name == "cursor") {
+      if (!is_job_id(value))
+        throw Error(ErrorCode::invalid_parameters,
+                    "not a cursor; take it from the Link header of the page before", "/cursor");
       filter.cursor = value;
     } else if (name == "limit") {
       const auto end = std::from_chars(value.data(), value.data() + value.size(), filter.limit);
@@ -45,8 +56,7 @@ JobFilter read_filter(const http::Request& request) {
 std::string next_page(const JobFilter& filter, const std::string& cursor) {
   std::string target = "/v1/jobs?limit=" + std::to_string(filter.limit) + "&cursor=" + cursor;
   if (filter.status) target += std::string("&status=") + to_string(*filter.status);
-  // Only words from our own registry can match, so nothing here needs escaping; others give an empty page
-  // without a next.
+  // Job ids and names of operations, so nothing here needs escaping.
   if (!filter.operation.empty()) target += "&operation=" + filter.operation;
   return target;
 }

@@ -133,7 +133,8 @@ TEST_F(ServiceJobs, ListsByPagesFromTheNewest) {
 }
 
 TEST_F(ServiceJobs, BadFiltersNameTheParameter) {
-  for (const std::string parameter : {"limit=0", "limit=501", "limit=x", "status=done", "color=red"}) {
+  for (const std::string parameter :
+       {"limit=0", "limit=501", "limit=x", "status=done", "color=red", "cursor=x", "operation=bake"}) {
     const Answer answer = caller.get("/v1/jobs?" + parameter);
     EXPECT_EQ(answer.status, 422) << parameter;
     EXPECT_EQ(answer.problem(), "invalid-parameters");
