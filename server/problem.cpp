@@ -87,6 +87,7 @@ constexpr Kind kHttpKinds[] = {
     {429, "rate-limited", "Too many requests", "1"},
     {431, "header-too-large", "The header block is too large"},
     {500, "internal", "Something went wrong in the server"},
+    {501, "not-implemented", "The method is unknown"},
     {503, "overloaded", "The server is overloaded", "2"},
     {504, "deadline-exceeded", "The time limit has passed"},
     {505, "version-not-supported", "The HTTP version is not supported"},

@@ -205,7 +205,7 @@ std::vector<Vec3> find_gaps(const PointSet& points, double radius, const Control
   constexpr std::size_t block = 1024;
   std::vector<std::vector<Vec3>> gaps((points.size() + block - 1) / block);
   parallel_blocks(points.size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder finder(points, grid, 2.05 * radius);
+    CellFinder finder(points, grid, 2.05 * radius, control);
     for (std::size_t i = begin; i < end; ++i) {
       finder.load(static_cast<std::uint32_t>(i));
       const Cell& cell = finder.cell_at({});

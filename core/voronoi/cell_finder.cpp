@@ -5,9 +5,14 @@
 #include <limits>
 
 namespace wellspaced {
+namespace {
 
-CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double reach)
-    : points_(&points), grid_(&grid), first_reach_(reach) {
+constexpr std::size_t crowd = 256;  ///< a neighborhood of so many may take long
+
+}  // namespace
+
+CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control)
+    : points_(&points), grid_(&grid), control_(&control), first_reach_(reach) {
   // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can
   // matter.
   farthest_reach_ = 2 * norm(points.domain->box().size);
@@ -35,8 +40,10 @@ void CellFinder::gather(double reach) {
 void CellFinder::cut(Vec2 u) {
   points_->domain->bisectors(base_, u, neighbors_, half_planes_);
   cell_.reset(reach_);
-  for (std::size_t k = 0; k < half_planes_.size(); ++k)
+  for (std::size_t k = 0; k < half_planes_.size(); ++k) {
+    if (k % crowd == crowd - 1) control_->check();
     cell_.clip(half_planes_[k], static_cast<std::int32_t>(k));
+  }
 }
 
 const Cell& CellFinder::cell_at(Vec2 u) {

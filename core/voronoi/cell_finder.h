@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/control.h"
 #include "core/domain/domain.h"
 #include "core/point_set.h"
 #include "core/voronoi/cell.h"
@@ -20,8 +21,9 @@ namespace wellspaced {
 class CellFinder {
  public:
   /// `reach`: how far to look at first; about 2.5 times the spacing is cheapest. Requires: points and grid
-  /// outlive it.
-  CellFinder(const PointSet& points, const NeighborGrid& grid, double reach);
+  /// outlive it, as does the control, which is asked now and then in crowds. Errors of every other call:
+  /// cancelled, deadline_exceeded.
+  CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control);
 
   /// Turns to sample i at its present position.
   void load(std::uint32_t i);
@@ -43,6 +45,7 @@ class CellFinder {
 
   const PointSet* points_;
   const NeighborGrid* grid_;
+  const Control* control_;
   double first_reach_, reach_ = 0, farthest_reach_;
   std::uint32_t self_ = 0;
   Vec3 base_;

@@ -21,7 +21,7 @@ void visit_stars_by_kernel(const PointSet& points, const Control& control, const
   const double spacing = hexagonal_spacing(points.domain->area(), points.size());
   const NeighborGrid grid(points, spacing);
   parallel_blocks(points.size(), 1024, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder finder(points, grid, 2.3 * spacing);
+    CellFinder finder(points, grid, 2.3 * spacing, control);
     std::vector<Spoke> spokes;
     for (std::size_t i = begin; i < end; ++i) {
       // A block may take seconds where very many points are near each other.

@@ -47,11 +47,12 @@ void require_drawable(const Request& request, const Wanted& wanted, const Limits
 }
 
 JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query,
-                  bool attached) {
+                  const std::string& needs, bool attached) {
   JobSpec spec;
   spec.operation = operation;
   spec.content_type = request.header("Content-Type");
   spec.query = json(query).dump();
+  spec.needs = needs;
   spec.request = request.body;
   spec.trace = request.header("traceparent");
   spec.attached = attached;
@@ -97,12 +98,17 @@ http::Response post_operation(Context& context, const std::string& operation,
     const Preference preference = read_preference(http_request);
     const Query query = request_query(http_request);
     const RawRequest raw{operation, http_request.header("Content-Type"), http_request.body, query};
-    const Request request = read_request(raw, context.config.limits, points_of_jobs(context));
+    std::string needs;
+    const JobPoints job_points = [&](const std::string& id) {
+      needs = id;
+      return points_of_jobs(context)(id);
+    };
+    const Request request = read_request(raw, context.config.limits, job_points);
     require_drawable(request, wanted, context.config.limits);
     if (!preference.respond_async) require_sync(request, context.config.limits);
 
     const bool attached = !preference.respond_async;
-    const Job job = context.store.submit(make_spec(operation, http_request, query, attached));
+    const Job job = context.store.submit(make_spec(operation, http_request, query, needs, attached));
     context.metrics.count_submitted(operation);
     context.pool->notify();
     if (preference.respond_async && !preference.wait_seconds) return accepted_response(job);

@@ -62,12 +62,8 @@ Complaint parse_request_line(std::string_view line, const HeadLimits& limits, He
   if (target.empty() || !visible)
     return http_problem(400,
                         "the request target may hold only visible ASCII and no '#'; percent-encode the rest");
-  if (std::find(std::begin(kMethods), std::end(kMethods), method) == std::end(kMethods)) {
-    Problem unknown =
-        http_problem(405, "the method is unknown; methods are upper case, such as GET and POST");
-    unknown.headers.emplace_back("Allow", "GET, HEAD, POST, DELETE, OPTIONS");
-    return unknown;
-  }
+  if (std::find(std::begin(kMethods), std::end(kMethods), method) == std::end(kMethods))
+    return http_problem(501, "the method is unknown; methods are upper case, such as GET and POST");
   head.method = method;
   head.target = target;
   return {};

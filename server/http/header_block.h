@@ -45,7 +45,7 @@ struct Head {
 /// Guarantee: of two readers of a vetted head none can see another body length than the other (request
 /// smuggling). Errors: 400 bad syntax, obs-fold, space before a colon, missing or repeated Host,
 /// Transfer-Encoding together with Content-Length, repeated or non-numeric Content-Length, a body on GET or
-/// HEAD; 405 unknown method; 411 Transfer-Encoding; 413; 414; 415 Content-Encoding; 417; 431; 505.
+/// HEAD; 411 Transfer-Encoding; 413; 414; 415 Content-Encoding; 417; 431; 501 unknown method; 505.
 std::variant<Head, Problem> vet_head(std::string_view block, const HeadLimits& limits);
 
 }  // namespace wellspaced::http

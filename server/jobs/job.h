@@ -24,6 +24,7 @@ struct JobSpec {
   std::string query;         ///< raw query string of the request
   std::string request;       ///< body bytes
   std::string trace;         ///< traceparent, or empty
+  std::string needs;         ///< id of the job whose result `request` takes its points from, or empty
   bool attached = false;  ///< a client is waiting on its connection: not worth a second attempt after a crash
 };
 

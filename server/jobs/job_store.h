@@ -50,14 +50,15 @@ enum class CancelOutcome { requested, already_over, unknown };
 /// so.
 /// 5. Every change of status appends an event "status", the last one also "done", with
 /// {"id","status","progress","attempt"}.
-/// 6. Ids ascend in the order of submission; each claim of a job has a greater attempt than the one before.
+/// 6. A result that a live job needs is kept until that job is over, even past its time; it can't be purged.
+/// 7. Ids ascend in the order of submission; each claim of a job has a greater attempt than the one before.
 ///
 /// Errors of every call: storage_unavailable, storage_full. Thread safety: all calls from any thread.
 class JobStore {
  public:
   virtual ~JobStore() = default;
 
-  /// Errors: overloaded, too_many_jobs.
+  /// Errors: overloaded, too_many_jobs; those of `result` if the result that the job needs is not there.
   virtual Job submit(const JobSpec& spec) = 0;
 
   /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of
@@ -77,7 +78,8 @@ class JobStore {
   /// Newest first, at most `limit`; a full page means that there may be more.
   virtual std::vector<Job> list(const JobFilter& filter) = 0;
   virtual CancelOutcome cancel(const std::string& id) = 0;
-  /// Deletes a finished job with its result. False if there is none such or it is live.
+  /// Deletes a finished job with its result. False if there is none such or it is live. Errors: conflict if a
+  /// live job needs the result.
   virtual bool purge(const std::string& id) = 0;
 
   /// The result's bytes. Errors: no_such_job, result_not_ready, result_expired, conflict (failed or

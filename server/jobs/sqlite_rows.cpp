@@ -43,6 +43,12 @@ Job read_job(const sqlite::Query& row) {
   return job;
 }
 
+std::vector<std::string> ids_of(sqlite::Query row) {
+  std::vector<std::string> ids;
+  while (row.step()) ids.push_back(row.text(0));
+  return ids;
+}
+
 }  // namespace
 
 std::optional<Job> find(sqlite::Connection& connection, const std::string& id) {
@@ -66,17 +72,17 @@ std::vector<Job> list(sqlite::Connection& connection, const JobFilter& filter) {
 
 void insert(sqlite::Connection& connection, const std::string& id, const JobSpec& spec, std::int64_t now_ms) {
   connection.run(
-      "INSERT INTO job (id, operation, owner, content_type, query, trace, attached, request_bytes, state, "
-      "created,"
-      " updated) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'accepted', ?9, ?9)",
+      "INSERT INTO job (id, operation, owner, content_type, query, trace, attached, request_bytes, needs, "
+      "state, created, updated) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, 'accepted', ?10, ?10)",
       id, spec.operation, spec.owner, spec.content_type, spec.query, spec.trace, spec.attached,
-      static_cast<std::int64_t>(spec.request.size()), now_ms);
+      static_cast<std::int64_t>(spec.request.size()), spec.needs, now_ms);
   write_blob(connection, id, 0, spec.request);
 }
 
 JobSpec spec_of(sqlite::Connection& connection, const std::string& id) {
   sqlite::Query row = connection.query(
-      "SELECT operation, owner, content_type, query, trace, attached, request_bytes FROM job WHERE id = ?1",
+      "SELECT operation, owner, content_type, query, trace, attached, request_bytes, needs FROM job WHERE id "
+      "= ?1",
       id);
   if (!row.step()) throw Error(ErrorCode::no_such_job, "there is no job \"" + id + "\" any more");
   JobSpec spec;
@@ -86,6 +92,7 @@ JobSpec spec_of(sqlite::Connection& connection, const std::string& id) {
   spec.query = row.text(3);
   spec.trace = row.text(4);
   spec.attached = row.integer(5) != 0;
+  spec.needs = row.text(7);
   spec.request = read_blob(connection, id, 0, row.integer(6));
   return spec;
 }
@@ -111,6 +118,25 @@ std::string read_blob(sqlite::Connection& connection, const std::string& id, int
                                                     "\": its file is damaged; submit the job again");
   }
   return bytes;
+}
+
+std::optional<std::string> live_job_that_needs(sqlite::Connection& connection, const std::string& id) {
+  sqlite::Query row = connection.query(
+      "SELECT id FROM job WHERE needs = ?1 AND needs <> '' AND state IN ('accepted', 'running') LIMIT 1", id);
+  if (!row.step()) return std::nullopt;
+  return row.text(0);
+}
+
+std::vector<std::string> with_result_over(sqlite::Connection& connection, std::int64_t now_ms, int limit) {
+  return ids_of(connection.query(
+      "SELECT id FROM job WHERE result_kept = 1 AND expires <= ?1 AND NOT EXISTS (SELECT 1 FROM job AS user"
+      " WHERE user.needs = job.id AND user.needs <> '' AND user.state IN ('accepted', 'running')) LIMIT ?2",
+      now_ms, limit));
+}
+
+std::vector<std::string> over_for_good(sqlite::Connection& connection, std::int64_t time_ms, int limit) {
+  return ids_of(connection.query("SELECT id FROM job WHERE expires <= ?1 AND result_kept = 0 LIMIT ?2",
+                                 time_ms, limit));
 }
 
 void append_event(sqlite::Connection& connection, const std::string& id, const std::string& type,

@@ -23,6 +23,14 @@ JobSpec spec_of(sqlite::Connection& connection, const std::string& id);
 /// Blobs are kept in rows of 1 MiB; `attempt` 0 is the request.
 void write_blob(sqlite::Connection& connection, const std::string& id, int attempt, const std::string& bytes);
 /// Errors: storage_unavailable if the rows don't add up to `size`.
+/// The id of an accepted or running job that takes its points from the result of job `id`, if there is one.
+std::optional<std::string> live_job_that_needs(sqlite::Connection& connection, const std::string& id);
+
+/// At most `limit` ids: of jobs whose result's time is over and that no live job needs; of jobs without a
+/// kept result whose `expires` is not after `time_ms`.
+std::vector<std::string> with_result_over(sqlite::Connection& connection, std::int64_t now_ms, int limit);
+std::vector<std::string> over_for_good(sqlite::Connection& connection, std::int64_t time_ms, int limit);
+
 std::string read_blob(sqlite::Connection& connection, const std::string& id, int attempt, std::int64_t size);
 
 /// Keeps the newest `cap` events.

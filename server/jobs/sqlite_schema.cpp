@@ -47,6 +47,11 @@ CREATE TABLE event (
   job TEXT NOT NULL, seq INTEGER NOT NULL, type TEXT NOT NULL, json TEXT NOT NULL,
   PRIMARY KEY (job, seq)
 ) WITHOUT ROWID;
+)sql",
+                               // needs: the job whose result the request takes its points from, or ''.
+                               R"sql(
+ALTER TABLE job ADD COLUMN needs TEXT NOT NULL DEFAULT '';
+CREATE INDEX job_live_by_needs ON job (needs) WHERE needs <> '' AND state IN ('accepted', 'running');
 )sql"};
 
 constexpr auto kNewest = static_cast<std::int64_t>(kSteps.size());

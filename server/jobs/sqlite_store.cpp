@@ -100,6 +100,7 @@ class SqliteStore final : public JobStore {
 
   // All of these run inside a `write`.
   void check_room_for(const JobSpec& spec);
+  void check_result(Connection& connection, const std::string& id);
   std::string next_id(std::int64_t now_ms);
   bool holds(const Claim& claim);
   void end(const std::string& id, const Ending& ending, std::int64_t now_ms);
@@ -149,6 +150,7 @@ std::int64_t SqliteStore::now(Connection& connection) const {
 Job SqliteStore::submit(const JobSpec& spec) {
   return write([&](std::int64_t now_ms) {
     check_room_for(spec);
+    if (!spec.needs.empty()) check_result(writer_, spec.needs);
     const std::string id = next_id(now_ms);
     rows::insert(writer_, id, spec, now_ms);
     rows::announce(writer_, id, "status", limits_.events_per_job);
@@ -357,6 +359,11 @@ bool SqliteStore::purge(const std::string& id) {
   return write([&](std::int64_t) {
     const auto job = rows::find(writer_, id);
     const bool over = job && is_terminal(job->status);
+    if (const auto user = over ? rows::live_job_that_needs(writer_, id) : std::nullopt) {
+      throw Error(ErrorCode::conflict, "job " + *user +
+                                           " has yet to take its points from this result; wait " +
+                                           "until it is over, or cancel it first");
+    }
     if (over) rows::erase(writer_, id);
     return over;
   });
@@ -364,26 +371,32 @@ bool SqliteStore::purge(const std::string& id) {
 
 std::string SqliteStore::result(const std::string& id) {
   return read([&](Connection& connection) {
-    sqlite::Query row = connection.query("SELECT result_kept FROM job WHERE id = ?1", id);
+    check_result(connection, id);
     const auto job = rows::find(connection, id);
-    if (!job || !row.step()) {
-      throw Error(ErrorCode::no_such_job,
-                  "there is no such job; it may have been purged, or its id is mistyped");
-    }
-    if (!is_terminal(job->status)) {
-      throw Error(ErrorCode::result_not_ready, std::string("the job is ") + to_string(job->status) +
-                                                   "; ask again when its status is successful");
-    }
-    if (job->status != JobStatus::successful) {
-      throw Error(ErrorCode::conflict,
-                  std::string("the job is ") + to_string(job->status) + " and has no result; see its status");
-    }
-    // The clock decides, not how often `expire` happens to run.
-    if (row.integer(0) == 0 || job->expires_ms.value() <= now(connection)) {
-      throw Error(ErrorCode::result_expired, "the result's time is over; submit the job again");
-    }
     return rows::read_blob(connection, id, job->attempt, job->result_bytes);
   });
+}
+
+void SqliteStore::check_result(Connection& connection, const std::string& id) {
+  sqlite::Query row = connection.query("SELECT result_kept FROM job WHERE id = ?1", id);
+  const auto job = rows::find(connection, id);
+  if (!job || !row.step()) {
+    throw Error(ErrorCode::no_such_job,
+                "there is no such job; it may have been purged, or its id is mistyped");
+  }
+  if (!is_terminal(job->status)) {
+    throw Error(ErrorCode::result_not_ready, std::string("the job is ") + to_string(job->status) +
+                                                 "; ask again when its status is successful");
+  }
+  if (job->status != JobStatus::successful) {
+    throw Error(ErrorCode::conflict,
+                std::string("the job is ") + to_string(job->status) + " and has no result; see its status");
+  }
+  // The clock decides, not how often `expire` happens to run.
+  const bool over = job->expires_ms.value() <= now(connection);
+  if (row.integer(0) == 0 || (over && !rows::live_job_that_needs(connection, id))) {
+    throw Error(ErrorCode::result_expired, "the result's time is over; submit the job again");
+  }
 }
 
 bool SqliteStore::append_event(const Claim& claim, const std::string& type, const std::string& json) {
@@ -416,12 +429,7 @@ int SqliteStore::expire() {
 }
 
 int SqliteStore::drop_results(std::int64_t now_ms) {
-  std::vector<std::string> ids;
-  {
-    sqlite::Query row = writer_.query("SELECT id FROM job WHERE result_kept = 1 AND expires <= ?1 LIMIT ?2",
-                                      now_ms, kDropBatch);
-    while (row.step()) ids.push_back(row.text(0));
-  }
+  const std::vector<std::string> ids = rows::with_result_over(writer_, now_ms, kDropBatch);
   for (const std::string& id : ids) {
     writer_.run("DELETE FROM blob WHERE job = ?1", id);
     writer_.run("UPDATE job SET result_kept = 0, updated = ?2 WHERE id = ?1", id, now_ms);
@@ -430,12 +438,8 @@ int SqliteStore::drop_results(std::int64_t now_ms) {
 }
 
 int SqliteStore::drop_jobs(std::int64_t now_ms) {
-  std::vector<std::string> ids;
-  {
-    sqlite::Query row = writer_.query("SELECT id FROM job WHERE expires <= ?1 LIMIT ?2",
-                                      now_ms - limits_.keep_result_ms, kDropBatch);
-    while (row.step()) ids.push_back(row.text(0));
-  }
+  const std::vector<std::string> ids =
+      rows::over_for_good(writer_, now_ms - limits_.keep_result_ms, kDropBatch);
   for (const std::string& id : ids) rows::erase(writer_, id);
   return static_cast<int>(ids.size());
 }

@@ -80,7 +80,7 @@ TEST(GuardRefuses, OtherProtocols) {
   expect_refusal("GET / HTTP/1.1\n\n", 400);
 }
 TEST(GuardRefuses, EncodedNulInThePath) { expect_refusal("GET /%00 HTTP/1.1\r\nHost: x\r\n\r\n", 400); }
-TEST(GuardRefuses, UnknownMethods) { expect_refusal("BREW / HTTP/1.1\r\nHost: x\r\n\r\n", 405); }
+TEST(GuardRefuses, UnknownMethods) { expect_refusal("BREW / HTTP/1.1\r\nHost: x\r\n\r\n", 501); }
 
 TEST(GuardRefuses, LargeBodiesBeforeReadingThem) {
   expect_refusal(kPost + "Content-Length: 1001\r\n\r\n", 413);

@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"SpaceInTarget", "GET /a b HTTP/1.1\r\nHost: x\r\n", 400},
         Case{"HighByteInTarget", "GET /\xc3\xa4 HTTP/1.1\r\nHost: x\r\n", 400},
         Case{"Fragment", "GET /#a HTTP/1.1\r\nHost: x\r\n", 400},
-        Case{"LowerCaseMethod", "get / HTTP/1.1\r\nHost: x\r\n", 405},
+        Case{"LowerCaseMethod", "get / HTTP/1.1\r\nHost: x\r\n", 501},
         Case{"LinesAtLimit", kGet + many(63), 200}, Case{"LinesAboveLimit", kGet + many(64), 431},
         Case{"LongTarget", "GET /" + std::string(8192, 'a') + " HTTP/1.1\r\nHost: x\r\n", 414},
         Case{"TargetAtLimit", "GET /" + std::string(8191, 'a') + " HTTP/1.1\r\nHost: x\r\n", 200},

@@ -247,6 +247,64 @@ TEST_P(JobStoreTest, ExpiresAnyNumberOfJobs) {
   EXPECT_THAT(store().list({}), IsEmpty());
 }
 
+// ---- results that other jobs take their points from
+
+struct Chain {
+  std::string source, user;
+};
+
+/// A finished job, and a live one that takes its points from it.
+Chain chain(JobStore& store) {
+  Chain made;
+  made.source = store.submit(some_spec()).id;
+  store.complete(store.claim("a worker").value(), "bytes");
+  JobSpec spec = some_spec();
+  spec.needs = made.source;
+  made.user = store.submit(spec).id;
+  return made;
+}
+
+TEST_P(JobStoreTest, RefusesToPurgeAResultThatALiveJobNeeds) {
+  const Chain made = chain(store());
+  try {
+    store().purge(made.source);
+    ADD_FAILURE() << "purged while its user was waiting";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::conflict);
+    EXPECT_THAT(error.what(), HasSubstr(made.user));
+  }
+  const Claim taken = claim();
+  EXPECT_EQ(taken.spec.needs, made.source);
+  EXPECT_EQ(code_of([&] { store().purge(made.source); }), ErrorCode::conflict);
+  EXPECT_EQ(store().result(made.source), "bytes");
+  store().complete(taken, "more bytes");
+  EXPECT_TRUE(store().purge(made.source));
+  EXPECT_EQ(store().result(made.user), "more bytes");
+}
+
+TEST_P(JobStoreTest, KeepsAResultPastItsTimeWhileALiveJobNeedsIt) {
+  const Chain made = chain(store());
+  test_store().advance(3 * limits.keep_result_ms);
+  EXPECT_EQ(store().expire(), 0);
+  EXPECT_EQ(store().result(made.source), "bytes");
+  store().cancel(made.user);
+  EXPECT_EQ(code_of([&] { store().result(made.source); }), ErrorCode::result_expired);
+  EXPECT_EQ(store().expire(), 2) << "its result, then its row";
+  EXPECT_FALSE(store().find(made.source));
+}
+
+TEST_P(JobStoreTest, TakesNoJobWhoseNeededResultIsNotThere) {
+  JobSpec spec = some_spec();
+  spec.needs = "no such job";
+  EXPECT_EQ(code_of([&] { store().submit(spec); }), ErrorCode::no_such_job);
+  spec.needs = submit();
+  EXPECT_EQ(code_of([&] { store().submit(spec); }), ErrorCode::result_not_ready);
+  store().complete(claim(), "bytes");
+  test_store().advance(limits.keep_result_ms + 1);
+  EXPECT_EQ(code_of([&] { store().submit(spec); }), ErrorCode::result_expired);
+  EXPECT_EQ(store().counts().accepted, 0);
+}
+
 // ---- events
 
 TEST_P(JobStoreTest, AppendsAnEventForEveryChangeOfStatus) {

@@ -93,7 +93,7 @@ TEST(Problem, InvalidUtf8IsReplaced) {
 
 TEST(Problem, StatusDecidesTypeAndTitle) {
   for (const int status : {400, 401, 403, 404, 405, 406, 408, 409, 410, 411, 413, 414,
-                           415, 416, 417, 422, 429, 431, 500, 503, 504, 505, 507}) {
+                           415, 416, 417, 422, 429, 431, 500, 501, 503, 504, 505, 507}) {
     const Problem problem = http_problem(status, "why");
     EXPECT_EQ(problem.status, status);
     EXPECT_EQ(problem.detail, "why");

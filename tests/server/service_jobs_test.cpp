@@ -112,6 +112,21 @@ TEST_F(ServiceJobs, DeleteOfAFinishedJobNeedsPurge) {
   EXPECT_EQ(caller.get("/v1/jobs/" + id).problem(), "no-such-job");
 }
 
+TEST_F(ServiceJobs, AResultThatAWaitingJobNeedsCanNotBePurged) {
+  const ServedApp busy(one_worker);
+  const Caller busy_caller(busy.port());
+  const std::string source = busy_caller.submit("generate", R"({"count":50})");
+  ASSERT_EQ(busy_caller.finished(source)["status"], "successful");
+  const std::string running = busy_caller.submit("optimize", endless_request());
+  const std::string user = busy_caller.submit("analyze", R"({"points":{"job":")" + source + "\"}}");
+  const Answer kept = busy_caller.remove("/v1/jobs/" + source + "?purge=true");
+  EXPECT_EQ(kept.status, 409);
+  EXPECT_THAT(kept.body, HasSubstr(user));
+  busy_caller.remove("/v1/jobs/" + running);
+  EXPECT_EQ(busy_caller.finished(user)["status"], "successful");
+  EXPECT_EQ(busy_caller.remove("/v1/jobs/" + source + "?purge=true").status, 204);
+}
+
 TEST_F(ServiceJobs, ListsByPagesFromTheNewest) {
   std::vector<std::string> ids;
   for (int k = 0; k < 5; ++k) ids.insert(ids.begin(), caller.submit("generate", R"({"count":20})"));

@@ -85,6 +85,16 @@ TEST_F(SqliteStoreTest, RefusesANewerSchema) {
   EXPECT_THAT(refusal(path()), HasSubstr("version 99"));
 }
 
+TEST_F(SqliteStoreTest, BringsAnOlderSchemaUpToDateWithItsJobs) {
+  const std::string id = open()->submit(some_spec("an old request")).id;
+  sql("DROP INDEX job_live_by_needs; ALTER TABLE job DROP COLUMN needs; PRAGMA user_version = 1");
+  const auto store = open();
+  const Claim taken = store->claim("a worker").value();
+  EXPECT_EQ(taken.id, id);
+  EXPECT_EQ(taken.spec.request, "an old request");
+  EXPECT_EQ(taken.spec.needs, "");
+}
+
 TEST_F(SqliteStoreTest, BringsNoSchemaUpToDateWhileAnOlderProgramUsesIt) {
   const auto store = open();
   sql("PRAGMA user_version = 0");

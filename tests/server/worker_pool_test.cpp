@@ -180,6 +180,26 @@ TEST_F(WorkerPoolTest, FailsAJobAboveItsTimeLimit) {
   EXPECT_THAT(job.problem, HasSubstr("deadline-exceeded"));
 }
 
+TEST_F(WorkerPoolTest, EndsAWaitingClientsJobAtTheLimitOfSynchronousAnswersOnly) {
+  options.attached_limit_ms = 20;
+  start(endless());
+  JobSpec spec = some_spec();
+  spec.attached = true;
+  const std::string waited_for = store.submit(spec).id;
+  pool->notify();
+  const Job job = ended(waited_for);
+  EXPECT_EQ(job.status, JobStatus::failed);
+  EXPECT_THAT(job.problem, HasSubstr("deadline-exceeded"));
+  EXPECT_THAT(job.problem, HasSubstr("Prefer: respond-async"));
+
+  running = 0;
+  const std::string asynchronous = submit();
+  ASSERT_TRUE(runs(asynchronous));
+  const auto past_the_limit = Control::Clock::now() + milliseconds(100);
+  EXPECT_TRUE(eventually([&] { return Control::Clock::now() > past_the_limit; }));
+  EXPECT_EQ(store.find(asynchronous)->status, JobStatus::running);
+}
+
 TEST_F(WorkerPoolTest, DismissesACancelledRunAtOnce) {
   options.lease_ms = 3'600'000;  // no heartbeat could bring the news
   options.progress_every_ms = 3'600'000;
