@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "core/error.h"
 #include "core/sort.h"
+#include "core/voronoi/grid_order.h"
 
 namespace wellspaced {
 namespace {
@@ -40,9 +40,13 @@ Vec3 without_negligible(Vec3 p) {
   return {flush(p.x), flush(p.y), flush(p.z)};
 }
 
-/// The first point (in input order) that repeats an earlier one, and that earlier one.
-std::optional<std::pair<std::uint32_t, std::uint32_t>> first_repetition(const PointSet& points,
-                                                                        const Control& control) {
+/// A point and an earlier one that it repeats.
+struct Repetition {
+  std::uint32_t later, earlier;
+};
+
+/// The first point (in input order) that repeats an earlier one.
+std::optional<Repetition> first_repetition(const PointSet& points, const Control& control) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto place = [&](std::uint32_t i) { return without_negligible(points[i]); };
@@ -50,11 +54,33 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> first_repetition(const Po
     const Vec3 p = place(a), q = place(b);
     return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> found;
+  std::optional<Repetition> found;
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (place(order[k]) == place(order[k - 1]) && (!found || order[k] < found->first))
-      found.emplace(order[k], order[k - 1]);
+    if (place(order[k]) == place(order[k - 1]) && (!found || order[k] < found->later))
+      found = Repetition{order[k], order[k - 1]};
   return found;
+}
+
+/// Whether any point repeats another one, for even sets: points that are the same lie in the same cell of a
+/// grid. Nothing is known of sets with crowded cells.
+std::optional<bool> repeats_within_cells(const PointSet& points, const Control& control) {
+  constexpr std::uint32_t crowd = 32;
+  const GridOrder order =
+      grid_order(points, hexagonal_spacing(points.domain->area(), points.size()), control);
+  if (order.fullest() > crowd) return std::nullopt;
+  const auto same = [&](std::uint32_t a, std::uint32_t b) {
+    return without_negligible({order.x[a], order.y[a], 0}) == without_negligible({order.x[b], order.y[b], 0});
+  };
+  for (std::size_t c = 0; c + 1 < order.start.size(); ++c)
+    for (std::uint32_t a = order.start[c]; a < order.start[c + 1]; ++a)
+      for (std::uint32_t b = order.start[c]; b < a; ++b)
+        if (same(a, b)) return true;
+  return false;
+}
+
+std::optional<Repetition> find_repetition(const PointSet& points, const Control& control) {
+  if (points.domain->dimension() == 2 && repeats_within_cells(points, control) == false) return std::nullopt;
+  return first_repetition(points, control);
 }
 
 }  // namespace
@@ -68,12 +94,12 @@ void require_usable(const PointSet& points, const Control& control) {
     throw Error(ErrorCode::degenerate_input,
                 "the point set has " + std::to_string(points.size()) + " points; at least 3 are needed");
   require_in_domain(points);
-  if (const auto repeat = first_repetition(points, control))
+  if (const auto repeat = find_repetition(points, control))
     throw Error(ErrorCode::degenerate_input,
-                "the point repeats point " + std::to_string(repeat->second) +
+                "the point repeats point " + std::to_string(repeat->earlier) +
                     " (to within 1e-100), so the conflict radius r_f is 0 and beta is not defined; remove "
                     "one of them",
-                "/" + std::to_string(repeat->first));
+                "/" + std::to_string(repeat->later));
 }
 
 }  // namespace wellspaced

@@ -47,8 +47,7 @@ double hexagonal_spacing(double area, std::size_t n);
 /// Errors: degenerate_input for fewer than 3 points; invalid_parameters at /17 or /17/1 for a NaN, an
 /// infinity, or a point outside the domain; degenerate_input at /17 for a point that repeats an earlier one
 /// to within 1e-100 (r_f = 0).
-/// Cost: O(n log n).
-/// cancelled, deadline_exceeded.
+/// Errors also: cancelled, deadline_exceeded. Cost: O(n) for even sets, O(n log n) for any.
 void require_usable(const PointSet& points, const Control& control);
 
 }  // namespace wellspaced

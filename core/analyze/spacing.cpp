@@ -112,7 +112,7 @@ Spacing measure_spacing(const PointSet& points, const Control& control) {
 
 GlobalRatio measure_ratio(const PointSet& points, const Control& control) {
   std::vector<GlobalRatio> locals(points.size());
-  visit_stars_by_kernel(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
+  visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
     const StarMeasure m = measure_star(i, spokes);
     locals[i] = {m.nearest, m.outradius};
   });

@@ -10,7 +10,7 @@
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
-#include "core/optimize/push_pull_step.h"
+#include "core/optimize/push_pull_sweep.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -102,14 +102,14 @@ class Descent {
   /// Sweeps over marked points until nothing violates the targets. False: the allowance is used up.
   bool relax(PushPull targets, const Allowance& allowance) {
     const double visits_before = visits_;
-    const std::size_t flips_before = mesh_.flips();
+    const double flips_before = flips_;
     Calm calm;
     mesh_.mark_all();
     for (int sweep = 1;; ++sweep) {
       const std::size_t moves = sweep_once(targets);
       ++sweeps_;
       if (!mesh_.any_marked()) {
-        mesh_.legalize_all(control_);
+        flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
       }
       if (std::has_single_bit(static_cast<unsigned>(sweep)) || sweep % 64 == 0) record();
@@ -118,7 +118,7 @@ class Descent {
         targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
       }
       if (visits_ - visits_before > allowance.visits || visits_ > budget_) return false;
-      if (static_cast<double>(mesh_.flips() - flips_before) > allowance.flips) return false;
+      if (flips_ - flips_before > allowance.flips) return false;
     }
   }
 
@@ -144,15 +144,10 @@ class Descent {
   };
 
   std::size_t sweep_once(const PushPull& targets) {
-    constexpr std::size_t between_checks = 4096;
-    std::size_t moves = 0, count = 0;
-    for (std::size_t i = mesh_.take_marked(0); i < mesh_.size(); i = mesh_.take_marked(i + 1)) {
-      if (++count % between_checks == 0) control_.check();
-      moves += push_pull_step(mesh_, i, targets) ? 1 : 0;
-    }
-    control_.check();
-    visits_ += static_cast<double>(count);
-    return moves;
+    const SweepCounts counts = push_pull_sweep(mesh_, targets, control_);
+    visits_ += static_cast<double>(counts.visits);
+    flips_ += static_cast<double>(counts.flips);
+    return counts.moves;
   }
 
   /// Below what can be reached at once: small steps, each from the last state that was clean.
@@ -224,7 +219,7 @@ class Descent {
   StarMesh mesh_;
   StarMesh::Snapshot best_;
   double best_beta_ = std::numeric_limits<double>::infinity();
-  double visits_ = 0, budget_ = 0;
+  double visits_ = 0, flips_ = 0, budget_ = 0;
   int sweeps_ = 0;
   std::vector<SweepRecord> history_;
 };

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/rng.h"
+#include "core/voronoi/gift_wrap.h"
 #include "core/voronoi/stars.h"
 
 namespace wellspaced {
@@ -51,25 +52,6 @@ void require_room(const PointSet& points, double spacing) {
 
 }  // namespace
 
-int Star::find(std::uint32_t v) const {
-  int k = 0;
-  while (k < degree && neighbor[k] != v) ++k;
-  return k;
-}
-
-void Star::erase(int k) {
-  --degree;
-  for (int j = k; j < degree; ++j) neighbor[j] = neighbor[j + 1];
-  for (int j = degree; j < most; ++j) neighbor[j] = neighbor[0];
-}
-
-void Star::insert_after(int k, std::uint32_t v) {
-  for (int j = degree; j > k + 1; --j) neighbor[j] = neighbor[j - 1];
-  neighbor[k + 1] = v;
-  ++degree;
-  for (int j = degree; j < most; ++j) neighbor[j] = neighbor[0];
-}
-
 StarMesh::StarMesh(const PointSet& points, const Control& control) {
   require_usable(points, control);
   const Box box = points.domain->box();
@@ -78,32 +60,8 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
   spacing_ = hexagonal_spacing(points.domain->area(), points.size());
   require_room(points, spacing_);
   scale_ = {width_ / turn / spacing_, height_ / turn / spacing_};
-  place_in_grid_order(points);
   build_stars(points, control);
   marks_.assign((size() + 63) / 64, 0);
-}
-
-void StarMesh::place_in_grid_order(const PointSet& points) {
-  const auto cells = [&](double side) {
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(side / (1.6 * spacing_)));
-  };
-  const std::uint64_t columns = cells(width_), rows = cells(height_);
-  std::vector<FixedPoint> at(points.size());
-  std::vector<std::uint64_t> cell(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    at[i] = {to_fixed(points[i].x, width_), to_fixed(points[i].y, height_)};
-    cell[i] = ((at[i].y * rows) >> 32) * columns + ((at[i].x * columns) >> 32);
-  }
-  std::vector<std::uint32_t> start(columns * rows + 1, 0);
-  for (const std::uint64_t c : cell) ++start[c + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  at_.resize(points.size());
-  original_.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t k = start[cell[i]]++;
-    at_[k] = at[i];
-    original_[k] = static_cast<std::uint32_t>(i);
-  }
 }
 
 Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
@@ -111,45 +69,84 @@ Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
           static_cast<double>(static_cast<std::int32_t>(at_[j].y - at_[i].y)) * scale_.y};
 }
 
-PointSet StarMesh::places_as_points(const std::shared_ptr<const Domain>& domain) const {
-  PointSet points{domain, {}};
-  points.coordinates.reserve(2 * size());
-  for (const FixedPoint& p : at_) points.push_back({to_length(p.x, width_), to_length(p.y, height_), 0});
-  return points;
-}
-
 void StarMesh::build_stars(const PointSet& input, const Control& control) {
   // Cocircular neighbors have no one triangulation: they are nudged, by far less than any target's margin.
   constexpr double nudges[] = {0, 1e-7, 1e-6, 1e-5};
-  const std::vector<FixedPoint> exact = at_;
+  std::vector<FixedPoint> exact(input.size());
+  for (std::size_t i = 0; i < input.size(); ++i)
+    exact[i] = {to_fixed(input[i].x, width_), to_fixed(input[i].y, height_)};
   for (const double nudge : nudges) {
-    at_ = exact;
-    if (nudge > 0) shake(nudge);
-    const PointSet rounded = places_as_points(input.domain);
-    try {
-      require_usable(rounded, control);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::degenerate_input) throw;
-      refuse("two of the points are nearer to each other than a 2^32nd of the torus");
-    }
-    collect_stars(rounded, control);
+    place_in_grid_order(nudge > 0 ? shaken(exact, nudge) : exact, input.domain, control);
     if (is_mutual()) return;
   }
   refuse("the points have no clear Delaunay triangulation");
 }
 
-void StarMesh::shake(double amount) {
+/// Sets places and stars.
+void StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
+                                   const std::shared_ptr<const Domain>& domain, const Control& control) {
+  PointSet rounded{domain, {}};
+  rounded.coordinates.reserve(2 * points.size());
+  for (const FixedPoint& p : points) rounded.push_back({to_length(p.x, width_), to_length(p.y, height_), 0});
+  GridOrder order = grid_order(rounded, wrap_cell * spacing_, control);
+  original_ = std::move(order.original);
+  at_.resize(points.size());
+  for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = points[original_[k]];
+  cut_strips(order);
+  if (auto wrapped = wrap_stars(order, control)) {
+    stars_ = std::move(*wrapped);
+    return;
+  }
+  for (std::size_t k = 0; k < at_.size(); ++k) rounded.set(k, {order.x[k], order.y[k], 0});
+  collect_stars(rounded, control);
+}
+
+Territory StarMesh::everywhere() const {
+  const auto n = static_cast<std::uint32_t>(size());
+  return {0, n, n};
+}
+
+void StarMesh::cut_strips(const GridOrder& order) {
+  constexpr std::uint32_t rows_a_half = 2, most_strips = 64, word = 64;  // strips share no word of marks
+  const auto n = static_cast<std::uint32_t>(order.size());
+  const std::uint32_t strips = std::min(order.rows / (2 * rows_a_half), most_strips) / 2 * 2,
+                      halves = 2 * strips;
+  strips_ = {{0, n, everywhere()}};
+  if (strips < 2) return;
+  std::vector<std::uint32_t> at(halves + 1);
+  for (std::uint32_t h = 0; h <= halves; ++h) {
+    const std::uint64_t row = std::uint64_t{h} * order.rows / halves;
+    at[h] = std::min(n, (order.start[row * order.columns] + word - 1) / word * word);
+    if (h > 0 && at[h] == at[h - 1]) return;
+  }
+  at[0] = 0;
+  strips_.clear();
+  for (std::uint32_t h = 0; h < halves; h += 2) {
+    const std::uint32_t low = at[(h + halves - 1) % halves], high = at[h + 2 == halves ? 1 : h + 3];
+    strips_.push_back({at[h], at[h + 2], {low, high > low ? high - low : high + n - low, n}});
+  }
+}
+
+std::vector<FixedPoint> StarMesh::shaken(std::vector<FixedPoint> points, double amount) const {
   Rng rng(0x5ba5e);
   const auto step = [&](double scale) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((2 * rng.uniform() - 1) * amount / scale));
   };
-  for (FixedPoint& p : at_) {
+  for (FixedPoint& p : points) {
     p.x += step(scale_.x);
     p.y += step(scale_.y);
   }
+  return points;
 }
 
+/// The stars of points that are in grid order already, however they lie.
 void StarMesh::collect_stars(const PointSet& points, const Control& control) {
+  try {
+    require_usable(points, control);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::degenerate_input) throw;
+    refuse("two of the points are nearer to each other than a 2^32nd of the torus");
+  }
   stars_.resize(size());
   std::atomic<bool> crowded = false, wrapped = false;
   visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
@@ -183,11 +180,16 @@ bool StarMesh::is_mutual() const {
 
 // ---- flips
 
-bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b) {
+bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
   Star& star = stars_[a];
   const int k = star.find(b);
   if (k == star.degree) return false;  // the edge is gone
   const std::uint32_t left = star.neighbor[star.after(k)], right = star.neighbor[star.before(k)];
+  for (const std::uint32_t v : {b, left, right}) {
+    if (suspects.territory.holds(v)) continue;
+    suspects.put_off.push_back({a, b});
+    return false;
+  }
   const Vec2 to_b = offset(a, b), to_left = offset(a, left), to_right = offset(a, right);
   const double b2 = norm2(to_b), left2 = norm2(to_left), right2 = norm2(to_right);
   // Negative: `right` lies inside the circle through a, b, left.
@@ -202,34 +204,34 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b) {
   stars_[b].erase(stars_[b].find(a));
   stars_[left].insert_after(stars_[left].find(a), right);
   stars_[right].insert_after(stars_[right].find(b), left);
-  ++flips_;
+  ++suspects.flips;
   for (const std::uint32_t v : {a, b, left, right}) mark(v);
-  suspect(a, left);
-  suspect(a, right);
-  suspect(b, left);
-  suspect(b, right);
+  suspects.add(a, left);
+  suspects.add(a, right);
+  suspects.add(b, left);
+  suspects.add(b, right);
   return true;
 }
 
-std::size_t StarMesh::legalize() {
+std::size_t StarMesh::legalize(Suspects& suspects) {
   std::size_t flips = 0;
-  while (!suspects_.empty()) {
-    const auto [a, b] = suspects_.back();
-    suspects_.pop_back();
-    flips += try_flip(a, b) ? 1 : 0;
+  while (!suspects.edges.empty()) {
+    const auto [a, b] = suspects.edges.back();
+    suspects.edges.pop_back();
+    flips += try_flip(a, b, suspects) ? 1 : 0;
   }
   return flips;
 }
 
 std::size_t StarMesh::legalize_all(const Control& control) {
-  std::size_t flips = 0;
+  Suspects suspects{everywhere()};
   for (std::size_t i = 0; i < size(); ++i) {
     if (i % 65536 == 0) control.check();
     for (int k = 0; k < stars_[i].degree; ++k)
-      if (stars_[i].neighbor[k] > i) suspect(static_cast<std::uint32_t>(i), stars_[i].neighbor[k]);
-    flips += legalize();
+      if (stars_[i].neighbor[k] > i) suspects.add(static_cast<std::uint32_t>(i), stars_[i].neighbor[k]);
+    legalize(suspects);
   }
-  return flips;
+  return suspects.flips;
 }
 
 // ---- marks
@@ -239,21 +241,24 @@ void StarMesh::mark_all() {
   if (size() % 64 != 0) marks_.back() = (std::uint64_t{1} << (size() % 64)) - 1;
 }
 
-bool StarMesh::any_marked() const {
-  return std::any_of(marks_.begin(), marks_.end(), [](std::uint64_t word) { return word != 0; });
+std::size_t StarMesh::marked() const {
+  std::size_t count = 0;
+  for (const std::uint64_t word : marks_) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
 }
 
-std::size_t StarMesh::take_marked(std::size_t from) {
+std::size_t StarMesh::take_marked(std::size_t from, std::size_t end) {
+  if (from >= end) return end;
   std::size_t word = from / 64;
-  if (word >= marks_.size()) return size();
   std::uint64_t bits = marks_[word] >> (from % 64) << (from % 64);
   while (bits == 0) {
-    if (++word == marks_.size()) return size();
+    if (++word * 64 >= end) return end;
     bits = marks_[word];
   }
-  const int bit = std::countr_zero(bits);
-  marks_[word] &= ~(std::uint64_t{1} << bit);
-  return word * 64 + static_cast<std::size_t>(bit);
+  const auto found = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+  if (found >= end) return end;
+  marks_[word] &= ~(std::uint64_t{1} << (found % 64));
+  return found;
 }
 
 // ---- results
@@ -289,7 +294,6 @@ void StarMesh::restore(const Snapshot& snapshot) {
   at_ = snapshot.at;
   stars_ = snapshot.stars;
   std::fill(marks_.begin(), marks_.end(), 0);
-  suspects_.clear();
 }
 
 }  // namespace wellspaced

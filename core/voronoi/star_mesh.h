@@ -8,6 +8,8 @@
 
 #include "core/control.h"
 #include "core/point_set.h"
+#include "core/voronoi/grid_order.h"
+#include "core/voronoi/star.h"
 
 namespace wellspaced {
 
@@ -17,22 +19,35 @@ struct FixedPoint {
   bool operator==(const FixedPoint&) const = default;
 };
 
-/// The Delaunay neighbors of one point, counter-clockwise, in one cache line; unused places repeat the first.
-struct alignas(64) Star {
-  static constexpr int most = 15;
-  std::uint32_t neighbor[most];
-  std::int32_t degree;
-
-  int find(std::uint32_t v) const;  ///< its place, or `degree`
-  int after(int k) const { return k + 1 == degree ? 0 : k + 1; }
-  int before(int k) const { return k == 0 ? degree - 1 : k - 1; }
-  void erase(int k);
-  void insert_after(int k, std::uint32_t v);
-};
-
 /// Smallest edge and largest circumradius of a triangulation, in units of d_hex.
 struct MeshRadii {
   double shortest = 0, outermost = 0;
+};
+
+/// Consecutive places of a mesh, which may go on at the first one after the last one.
+struct Territory {
+  std::uint32_t low = 0, size = 0, n = 0;  ///< n: places in all
+
+  bool holds(std::uint32_t v) const { return (v >= low ? v - low : v + n - low) < size; }
+};
+
+/// Edges that may have ceased to be Delaunay, looked at by `legalize` one after the other.
+struct Suspects {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+  Territory territory;  ///< what flips may touch
+  std::vector<Edge> edges = {};
+  std::vector<Edge> put_off = {};  ///< those whose flip would reach beyond the territory
+  std::size_t flips = 0;
+
+  void add(std::uint32_t a, std::uint32_t b) { edges.push_back({a, b}); }
+};
+
+/// Places that can be worked on at the same time as those of any other strip of the same color, as long as
+/// nothing is touched beyond `territory`.
+struct Strip {
+  std::uint32_t begin = 0, end = 0;
+  Territory territory;
 };
 
 /// The Delaunay triangulation of a torus's points, kept while the points move: one star a point, flips after
@@ -44,10 +59,11 @@ struct MeshRadii {
 /// Guarantees: stars are mutual and triangles counter-clockwise at all times, whatever sequence of moves
 /// (that keep the mover's triangles positive) and flips; after `legalize_all` every edge is locally Delaunay
 /// to within 1e-9, hence the triangulation is Delaunay to that. Coordinates are rounded to 2^-33 of the
-/// sides. Errors of the constructor: those of require_usable; degenerate_input for fewer than 20 points, a
-/// torus whose shorter side is below 4 d_hex, more than 15 neighbors of one point, or empty regions so large
-/// that edges reach around the torus; cancelled, deadline_exceeded. Cost: O(n) for even sets; 72 bytes a
-/// point. Determinism: a function of the points alone. Thread safety: none.
+/// sides. `strips` are a function of the points alone. Errors of the constructor: those of require_usable;
+/// degenerate_input for fewer than 20 points, a torus whose shorter side is below 4 d_hex, more than 15
+/// neighbors of one point, or empty regions so large that edges reach around the torus; cancelled,
+/// deadline_exceeded. Cost: O(n) for even sets; 72 bytes a point. Determinism: a function of the points
+/// alone. Thread safety: none, but that strips of one color may be worked on at the same time.
 class StarMesh {
  public:
   StarMesh(const PointSet& points, const Control& control);
@@ -65,20 +81,24 @@ class StarMesh {
 
   void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
 
-  /// An edge that may have ceased to be Delaunay; `legalize` looks at all that were suspected.
-  void suspect(std::uint32_t a, std::uint32_t b) { suspects_.push_back({a, b}); }
-  /// Flips until no suspected edge, nor any edge around a flip, is illegal. Marks the corners of what was
-  /// flipped. Number of flips.
-  std::size_t legalize();
+  /// Flips until no suspected edge, nor any edge around a flip, is illegal, but for those put off. Marks the
+  /// corners of what was flipped. Number of flips.
+  std::size_t legalize(Suspects& suspects);
   std::size_t legalize_all(const Control& control);
-  std::size_t flips() const { return flips_; }  ///< since the beginning
+  Territory everywhere() const;
+
+  /// All places, cut into strips across the torus; the even ones are of one color and the odd ones of the
+  /// other. Strips reach at least 3 d_hex across and their territories as far beyond; one strip where there
+  /// is no room for more.
+  const std::vector<Strip>& strips() const { return strips_; }
 
   /// Marks are one bit a point, for whoever sweeps over them.
   void mark(std::size_t i) { marks_[i / 64] |= std::uint64_t{1} << (i % 64); }
   void mark_all();
-  bool any_marked() const;
-  /// The first marked point from `from` on, its mark taken away; size() if there is none.
-  std::size_t take_marked(std::size_t from);
+  bool any_marked() const { return marked() != 0; }
+  std::size_t marked() const;  ///< how many
+  /// The first marked point in [from, end), its mark taken away; `end` if there is none.
+  std::size_t take_marked(std::size_t from, std::size_t end);
 
   MeshRadii measure() const;
 
@@ -95,13 +115,14 @@ class StarMesh {
   void restore(const Snapshot& snapshot);
 
  private:
-  void place_in_grid_order(const PointSet& points);
-  PointSet places_as_points(const std::shared_ptr<const Domain>& domain) const;
   void build_stars(const PointSet& input, const Control& control);
-  void shake(double amount);
+  void place_in_grid_order(const std::vector<FixedPoint>& points, const std::shared_ptr<const Domain>& domain,
+                           const Control& control);
+  std::vector<FixedPoint> shaken(std::vector<FixedPoint> points, double amount) const;
   void collect_stars(const PointSet& points, const Control& control);
   bool is_mutual() const;
-  bool try_flip(std::uint32_t a, std::uint32_t b);
+  void cut_strips(const GridOrder& order);
+  bool try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects);
 
   double spacing_ = 0, width_ = 0, height_ = 0;
   Vec2 scale_;
@@ -109,8 +130,7 @@ class StarMesh {
   std::vector<std::uint32_t> original_;
   std::vector<Star> stars_;
   std::vector<std::uint64_t> marks_;
-  std::size_t flips_ = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> suspects_;
+  std::vector<Strip> strips_;
 };
 
 }  // namespace wellspaced

@@ -1,10 +1,13 @@
 #include "core/voronoi/stars.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/voronoi/cell_finder.h"
+#include "core/voronoi/gift_wrap.h"
+#include "core/voronoi/grid_order.h"
 #include "core/voronoi/neighbors.h"
 
 namespace wellspaced {
@@ -37,7 +40,27 @@ void visit_stars_by_kernel(const PointSet& points, const Control& control, const
   });
 }
 
+bool visit_stars_by_wrapping(const PointSet& points, const Control& control, const StarVisitor& visit) {
+  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
+  const GridOrder order = grid_order(points, wrap_cell * spacing, control);
+  const auto stars = wrap_stars(order, control);
+  if (!stars) return false;
+  parallel_blocks(order.size(), 4096, control, [&](std::size_t begin, std::size_t end) {
+    std::array<Spoke, Star::most> spokes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Star& star = (*stars)[i];
+      for (int k = 0; k < star.degree; ++k) {
+        const std::uint32_t j = star.neighbor[k];
+        spokes[static_cast<std::size_t>(k)] = {order.offset(i, j), order.original[j]};
+      }
+      visit(order.original[i], {spokes.data(), static_cast<std::size_t>(star.degree)});
+    }
+  });
+  return true;
+}
+
 void visit_stars(const PointSet& points, const Control& control, const StarVisitor& visit) {
+  if (visit_stars_by_wrapping(points, control, visit)) return;
   if (is_even(points))
     visit_stars_by_kernel(points, control, visit);
   else

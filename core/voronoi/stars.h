@@ -20,8 +20,8 @@ struct Spoke {
 /// points.
 using StarVisitor = std::function<void(std::size_t, std::span<const Spoke>)>;
 
-/// Visits the Delaunay star of every point of a torus, by whichever of the two ways below suits the point
-/// set: the kernel for even sets, CGAL for clustered ones, where looking around on a uniform grid would take
+/// Visits the Delaunay star of every point of a torus, by whichever way suits the point set: wrap_stars or
+/// the kernel for even sets, CGAL for clustered ones, where looking around on a uniform grid would take
 /// quadratic time.
 ///
 /// Guarantees: consecutive spokes and the center make a Delaunay triangle; periodic images count, own ones
@@ -30,6 +30,9 @@ using StarVisitor = std::function<void(std::size_t, std::span<const Spoke>)>;
 /// images needed exceed a hundred million. Cost: O(n log n).
 /// Determinism: the same stars on any number of threads.
 void visit_stars(const PointSet& points, const Control& control, const StarVisitor& visit);
+
+/// By wrap_stars. False, and nothing was visited: that does not suit the point set.
+bool visit_stars_by_wrapping(const PointSet& points, const Control& control, const StarVisitor& visit);
 
 void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit);
 

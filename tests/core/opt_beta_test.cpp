@@ -10,6 +10,7 @@
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
 #include "tests/support/oracle.h"
+#include "tests/support/vector_widths.h"
 
 namespace wellspaced {
 namespace {
@@ -118,11 +119,15 @@ TEST(OptBeta, KeepsPointsThatViolateNothing) {
   EXPECT_LT(kept, input.size());
 }
 
-TEST(OptBeta, GivesTheSameBytesOnAnyNumberOfThreads) {
-  const PointSet input = mps(1500, 4);
-  Control one(1), four(4);
-  const auto a = opt_beta(input, to(0.72), one), b = opt_beta(input, to(0.72), four);
-  EXPECT_EQ(a.points.coordinates, b.points.coordinates);
+TEST(OptBeta, GivesTheSameBytesOnAnyNumberOfThreadsAndAnyVectorWidth) {
+  const PointSet input = mps(30000, 5);  // enough that threads share a sweep
+  const auto run = [&](unsigned threads) {
+    Control control(threads);
+    return opt_beta(input, {0.75, Randomness::fast, 30}, control).points.coordinates;
+  };
+  const std::vector<double> one = run(1);
+  for (const unsigned threads : {2u, 3u, 8u}) EXPECT_EQ(run(threads), one) << threads;
+  testing::on_every_vector_width([&](const std::string& name) { EXPECT_EQ(run(2), one) << name; });
 }
 
 TEST(OptBeta, ReportsMonotoneProgress) {

@@ -1,5 +1,7 @@
 #include "core/voronoi/star_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -55,6 +57,7 @@ TEST(StarMesh, IsDelaunayAgainAfterMovesAndFlips) {
   const Control control;
   StarMesh mesh(input, control);
   Rng rng(1);
+  std::size_t flips = 0;
   for (int round = 0; round < 20; ++round) {
     // A tenth of the spacing at a time, one point after the other, so that no triangle turns over.
     for (std::size_t i = 0; i < mesh.size(); i += 3) {
@@ -64,10 +67,10 @@ TEST(StarMesh, IsDelaunayAgainAfterMovesAndFlips) {
       const FixedPoint from = mesh.at(i);
       mesh.move_to(i, {from.x + jump(mesh.scale().x), from.y + jump(mesh.scale().y)});
     }
-    mesh.legalize_all(control);
+    flips += mesh.legalize_all(control);
     expect_delaunay(places(mesh, input), stars_of(mesh));
   }
-  EXPECT_GT(mesh.flips(), 50u);
+  EXPECT_GT(flips, 50u);
 }
 
 TEST(StarMesh, MeasuresWhatTheAnalysisMeasures) {
@@ -78,6 +81,58 @@ TEST(StarMesh, MeasuresWhatTheAnalysisMeasures) {
   const MeshRadii radii = mesh.measure();
   EXPECT_NEAR(radii.shortest * mesh.spacing(), spacing.r_f, 1e-8);
   EXPECT_NEAR(radii.outermost * mesh.spacing(), spacing.r_c, 1e-8);
+}
+
+TEST(StarMesh, CutsStripsThatHoldEveryPlaceOnce) {
+  for (const PointSet& input : {mps(100, 1), mps(5000, 1), mps(5000, 2, 7), mps(4000, 3, 0.1)}) {
+    const StarMesh mesh(input, Control());
+    std::uint32_t end = 0;
+    for (const Strip& strip : mesh.strips()) {
+      EXPECT_EQ(strip.begin, end);
+      end = strip.end;
+    }
+    EXPECT_EQ(end, mesh.size());
+    if (mesh.strips().size() == 1) continue;
+    EXPECT_EQ(mesh.strips().size() % 2, 0u);
+    for (std::uint32_t v = 0; v < mesh.size(); ++v) {
+      std::array<int, 2> holders{};
+      for (std::size_t s = 0; s < mesh.strips().size(); ++s) {
+        const Strip& strip = mesh.strips()[s];
+        const bool own = strip.begin <= v && v < strip.end, held = strip.territory.holds(v);
+        EXPECT_TRUE(held || !own) << v;
+        holders[s % 2] += held;
+      }
+      EXPECT_EQ(holders, (std::array<int, 2>{1, 1})) << "of each color, at place " << v;
+    }
+  }
+  EXPECT_GE(StarMesh(mps(5000, 1), Control()).strips().size(), 4u);
+}
+
+TEST(StarMesh, PutsOffFlipsBeyondATerritory) {
+  const PointSet input = mps(2000, 5);
+  const Control control;
+  StarMesh mesh(input, control);
+  Rng rng(2);
+  for (std::size_t i = 0; i < mesh.size(); i += 3) {
+    const FixedPoint from = mesh.at(i);
+    mesh.move_to(i, {from.x + static_cast<std::uint32_t>(0.1 * rng.uniform() / mesh.scale().x), from.y});
+  }
+  const auto n = static_cast<std::uint32_t>(mesh.size());
+  const Territory half{0, n / 2, n};
+  Suspects suspects{half};
+  for (std::uint32_t i = 0; i < n / 2; ++i)
+    for (int k = 0; k < mesh.star(i).degree; ++k) suspects.add(i, mesh.star(i).neighbor[k]);
+  std::vector<Star> before;
+  for (std::uint32_t i = 0; i < n; ++i) before.push_back(mesh.star(i));
+  EXPECT_GT(mesh.legalize(suspects), 20u);
+  for (std::uint32_t i = n / 2; i < n; ++i)
+    EXPECT_TRUE(std::equal(before[i].neighbor, before[i].neighbor + Star::most, mesh.star(i).neighbor)) << i;
+  suspects.territory = mesh.everywhere();
+  suspects.edges.swap(suspects.put_off);
+  mesh.legalize(suspects);
+  EXPECT_TRUE(suspects.put_off.empty());
+  mesh.legalize_all(control);
+  expect_delaunay(places(mesh, input), stars_of(mesh));
 }
 
 TEST(StarMesh, TriangulatesCocircularPointsAfterANudge) {
@@ -100,20 +155,22 @@ TEST(StarMesh, ReturnsUnmovedPointsBitForBit) {
 
 TEST(StarMesh, TakesMarksInOrderAndSeesLaterOnes) {
   StarMesh mesh(mps(200, 8), Control());
-  EXPECT_EQ(mesh.take_marked(0), mesh.size());
+  EXPECT_EQ(mesh.take_marked(0, mesh.size()), mesh.size());
   for (const std::size_t i : {3, 64, 130}) mesh.mark(i);
-  EXPECT_EQ(mesh.take_marked(0), 3u);
+  EXPECT_EQ(mesh.take_marked(0, mesh.size()), 3u);
   mesh.mark(2);
   mesh.mark(63);
-  EXPECT_EQ(mesh.take_marked(4), 63u);
-  EXPECT_EQ(mesh.take_marked(64), 64u);
-  EXPECT_EQ(mesh.take_marked(65), 130u);
-  EXPECT_EQ(mesh.take_marked(131), mesh.size());
+  EXPECT_EQ(mesh.take_marked(4, mesh.size()), 63u);
+  EXPECT_EQ(mesh.take_marked(64, mesh.size()), 64u);
+  EXPECT_EQ(mesh.take_marked(65, mesh.size()), 130u);
+  EXPECT_EQ(mesh.take_marked(131, mesh.size()), mesh.size());
   EXPECT_TRUE(mesh.any_marked());
-  EXPECT_EQ(mesh.take_marked(0), 2u);
+  EXPECT_EQ(mesh.take_marked(0, mesh.size()), 2u);
   mesh.mark_all();
   std::size_t count = 0;
-  for (std::size_t i = mesh.take_marked(0); i < mesh.size(); i = mesh.take_marked(i + 1)) ++count;
+  for (std::size_t i = mesh.take_marked(0, mesh.size()); i < mesh.size();
+       i = mesh.take_marked(i + 1, mesh.size()))
+    ++count;
   EXPECT_EQ(count, mesh.size());
   EXPECT_FALSE(mesh.any_marked());
 }

@@ -1,13 +1,37 @@
-#include "core/optimize/push_pull_step.h"
+#include "core/optimize/push_pull_sweep.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "core/parallel.h"
+
+#ifndef WELLSPACED_STRIP_WORK
+#define WELLSPACED_STRIP_WORK
 namespace wellspaced {
-namespace {
+
+/// One strip's part of a sweep.
+struct StripWork {
+  Strip strip;
+  Suspects suspects;
+  std::vector<std::uint32_t> put_off;  ///< points with neighbors beyond the strip's territory
+  SweepCounts counts;
+};
+
+}  // namespace wellspaced
+#endif
+
+// This file is compiled once for every kind of vector unit; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/optimize/push_pull_sweep.cpp"
+#include <hwy/foreach_target.h>  // before highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace wellspaced::HWY_NAMESPACE {
 
 constexpr float margin = 1.001f;  // aim a little past the targets, so that points settle
 constexpr float longest_step = 0.2f;
@@ -74,8 +98,9 @@ void for_each_bit(std::uint32_t bits, const Use& use) {
 template <int W>
 class Visit {
  public:
-  Visit(StarMesh& mesh, std::size_t i, const PushPull& t)
+  Visit(StarMesh& mesh, std::size_t i, const PushPull& t, Suspects& suspects)
       : mesh_(mesh),
+        suspects_(suspects),
         i_(i),
         t_(t),
         r_f_(static_cast<float>(t.r_f)),
@@ -84,6 +109,7 @@ class Visit {
         r_c2_(r_c_ * r_c_) {}
 
   /// Nothing if flips left the point with more neighbors than there are lanes.
+  /// Else whether the point moved.
   std::optional<bool> run() {
     if (!settle()) return std::nullopt;
     if ((near_ | far_) == 0) return false;
@@ -108,11 +134,11 @@ class Visit {
       look(now_);
       if (round == most_rounds) return true;
       suspect_spokes();
-      if (mesh_.legalize() > 0) continue;
+      if (mesh_.legalize(suspects_) > 0) continue;
       if (!t_.look_across || far_ == 0) return true;
       const Star& star = mesh_.star(i_);
-      for_each_bit(far_, [&](int k) { mesh_.suspect(star.neighbor[k], star.neighbor[star.after(k)]); });
-      if (mesh_.legalize() == 0) return true;
+      for_each_bit(far_, [&](int k) { suspects_.add(star.neighbor[k], star.neighbor[star.after(k)]); });
+      if (mesh_.legalize(suspects_) == 0) return true;
     }
     return false;
   }
@@ -123,7 +149,7 @@ class Visit {
       return now_.d2[k] - 2 * (now_.x[k] * now_.cx[k] + now_.y[k] * now_.cy[k]) < illegal;
     };
     for_each_bit(Lanes<W>::bits(degree_, inside),
-                 [&](int k) { mesh_.suspect(static_cast<std::uint32_t>(i_), mesh_.star(i_).neighbor[k]); });
+                 [&](int k) { suspects_.add(static_cast<std::uint32_t>(i_), mesh_.star(i_).neighbor[k]); });
   }
 
   void look(const Lanes<W>& lanes) {
@@ -174,6 +200,7 @@ class Visit {
   }
 
   StarMesh& mesh_;
+  Suspects& suspects_;
   const std::size_t i_;
   const PushPull& t_;
   const float r_f_, r_c_, r_f2_, r_c2_;
@@ -182,12 +209,85 @@ class Visit {
   Lanes<W> now_, next_;
 };
 
+/// Hardly any point of an even set has more than 8 neighbors; none has more than 15.
+bool visit(StarMesh& mesh, std::size_t i, const PushPull& targets, Suspects& suspects) {
+  if (const auto moved = Visit<8>(mesh, i, targets, suspects).run()) return *moved;
+  return Visit<16>(mesh, i, targets, suspects).run().value();
+}
+
+/// Whether the star of a point lies in a territory.
+bool within(const Territory& territory, const Star& star) {
+  bool inside = true;
+  for (int k = 0; k < Star::most; ++k) inside &= territory.holds(star.neighbor[k]);
+  return inside;
+}
+
+void sweep_strip(StarMesh& mesh, const PushPull& targets, StripWork& work, const Control& control) {
+  constexpr std::size_t between_checks = 4096;
+  const Strip& strip = work.strip;
+  SweepCounts& counts = work.counts;
+  for (std::size_t i = strip.begin; (i = mesh.take_marked(i, strip.end)) < strip.end; ++i) {
+    if (++counts.visits % between_checks == 0) control.check();
+    if (within(strip.territory, mesh.star(i)))
+      counts.moves += visit(mesh, i, targets, work.suspects);
+    else
+      work.put_off.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// What no strip could do alone.
+void finish_sweep(StarMesh& mesh, const PushPull& targets, StripWork& work) {
+  for (const std::uint32_t i : work.put_off) work.counts.moves += visit(mesh, i, targets, work.suspects);
+}
+
+}  // namespace wellspaced::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace wellspaced {
+namespace {
+
+HWY_EXPORT(sweep_strip);
+HWY_EXPORT(finish_sweep);
+
+/// Threads cost more than they bring when few points are marked.
+unsigned threads_for(const StarMesh& mesh, const Control& control) {
+  constexpr std::size_t worth_it = 20000;
+  return mesh.marked() < worth_it ? 1 : control.threads();
+}
+
 }  // namespace
 
-bool push_pull_step(StarMesh& mesh, std::size_t i, const PushPull& targets) {
-  // Hardly any point of an even set has more than 8 neighbors; none has more than 15.
-  if (const auto moved = Visit<8>(mesh, i, targets).run()) return *moved;
-  return Visit<16>(mesh, i, targets).run().value();
+SweepCounts push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Control& control) {
+  const std::size_t strips = mesh.strips().size();
+  std::vector<StripWork> work(strips);
+  for (std::size_t s = 0; s < strips; ++s) {
+    work[s].strip = mesh.strips()[s];
+    work[s].suspects.territory = work[s].strip.territory;
+  }
+  const Control crew(threads_for(mesh, control), &control);
+  for (std::size_t color = 0; color < 2; ++color) {
+    parallel_blocks((strips + 1 - color) / 2, 1, crew, [&](std::size_t k, std::size_t) {
+      HWY_DYNAMIC_DISPATCH(sweep_strip)(mesh, targets, work[2 * k + color], crew);
+    });
+  }
+  SweepCounts all;
+  StripWork rest;
+  rest.suspects.territory = mesh.everywhere();
+  for (StripWork& w : work) {
+    rest.put_off.insert(rest.put_off.end(), w.put_off.begin(), w.put_off.end());
+    rest.suspects.edges.insert(rest.suspects.edges.end(), w.suspects.put_off.begin(),
+                               w.suspects.put_off.end());
+    all.visits += w.counts.visits;
+    all.moves += w.counts.moves;
+    all.flips += w.suspects.flips;
+  }
+  mesh.legalize(rest.suspects);
+  HWY_DYNAMIC_DISPATCH(finish_sweep)(mesh, targets, rest);
+  all.moves += rest.counts.moves;
+  all.flips += rest.suspects.flips;
+  return all;
 }
 
 }  // namespace wellspaced
+#endif  // HWY_ONCE
