@@ -92,7 +92,7 @@ double hexagonal_spacing(double area, std::size_t n) {
 void require_usable(const PointSet& points, const Control& control) {
   if (points.size() < 3)
     throw Error(ErrorCode::degenerate_input,
-                "the point set has " + std::to_string(points.size()) + " points; at least 3 are needed");
+                "at least 3 points are needed; the point set has " + std::to_string(points.size()));
   require_in_domain(points);
   if (const auto repeat = find_repetition(points, control))
     throw Error(ErrorCode::degenerate_input,

@@ -1,10 +1,13 @@
 #include "proto/execute.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "core/analyze/certificate.h"
 #include "core/analyze/spacing.h"
 #include "core/generate/generate.h"
+#include "proto/measures.h"
 
 namespace wellspaced {
 namespace {
@@ -99,12 +102,31 @@ ordered_json history_to_json(const std::vector<SweepRecord>& history) {
   return rows;
 }
 
+/// What a method has against the points as a whole is said at /points.
+OptimizeResult optimize(const OptimizeRequest& request, const PointSet& input, Control& control) {
+  try {
+    return request.method->run(input, request.arguments, control);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::degenerate_input || !error.where().empty()) throw;
+    throw error.within("/points");
+  }
+}
+
+/// A target for beta counts as reached when that is proven.
+ordered_json converged(const OptimizeResult& result, const Arguments& arguments,
+                       const std::optional<Certificate>& proof) {
+  if (!result.converged) return {};
+  const auto target = argument(arguments, "beta");
+  return *result.converged && (!target || (proof && proof->beta_upper <= *target));
+}
+
 Result run(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.02), second(control, 0.02, 0.98);
   const PointSet input = points_of(request.points, first);
   at("/points", [&] { require_usable(input, control); });
-  OptimizeResult optimized = request.method->run(input, request.arguments, second);
+  OptimizeResult optimized = optimize(request, input, second);
   const Spacing s = measure_spacing(optimized.points, control);
+  const std::optional<Certificate> proof = certify(optimized.points, control);
   Result result{"optimize", {}, std::move(optimized.points), ""};
   result.summary = {{"n", s.n},
                     {"method", request.method->name},
@@ -116,7 +138,8 @@ Result run(const OptimizeRequest& request, Control& control) {
                     {"beta_i_max", s.beta_i_max},
                     {"beta_i_mean", s.beta_i_mean},
                     {"sweeps", optimized.sweeps}};
-  result.summary["converged"] = optimized.converged ? ordered_json(*optimized.converged) : ordered_json();
+  result.summary.update(certificate_to_json(proof));
+  result.summary["converged"] = converged(optimized, request.arguments, proof);
   result.summary["history"] = history_to_json(optimized.history);
   if (const auto* generated = std::get_if<GenerateRequest>(&request.points))
     add_origin(result.summary, *generated);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/analyze/certificate.h"
 #include "core/analyze/spacing.h"
 
 namespace wellspaced {
@@ -18,6 +19,18 @@ const std::vector<Measure> measure_rows = {
        return spacing_to_json(measure_spacing(points, control));
      },
      spacing_schema,
+     {8e-6, 400}},
+    {"certificate",
+     "Certificate",
+     "Proven bounds on both radii and on beta, found with directed roundings apart from the analysis of "
+     "spacing; "
+     "null if the points are so nearly in lines that nothing can be proven.",
+     "",
+     [](const PointSet& points, const Control& control) {
+       require_usable(points, control);
+       return certificate_to_json(certify(points, control));
+     },
+     certificate_schema,
      {8e-6, 400}},
 };
 
@@ -45,6 +58,18 @@ constexpr SpacingField spacing_fields[] = {
     {"edge_max", &Spacing::edge_max, "longest Delaunay edge / r_f"},
 };
 
+struct CertificateField {
+  const char* name;
+  double Certificate::*value;
+  const char* description;
+};
+
+constexpr CertificateField certificate_fields[] = {
+    {"beta_upper", &Certificate::beta_upper, "proven: beta is not above this"},
+    {"r_f_lower", &Certificate::r_f_lower, "proven: r_f is not below this"},
+    {"r_c_upper", &Certificate::r_c_upper, "proven: r_c is not above this"},
+};
+
 }  // namespace
 
 std::span<const Measure> measures() { return measure_rows; }
@@ -56,6 +81,22 @@ ordered_json spacing_to_json(const Spacing& spacing) {
   for (const auto& [neighbors, samples] : spacing.valence) valence[std::to_string(neighbors)] = samples;
   out["valence"] = std::move(valence);
   return out;
+}
+
+ordered_json certificate_to_json(const std::optional<Certificate>& certificate) {
+  ordered_json out;
+  for (const CertificateField& field : certificate_fields)
+    out[field.name] = certificate ? ordered_json((*certificate).*field.value) : ordered_json();
+  return out;
+}
+
+ordered_json certificate_schema() {
+  ordered_json properties, required = ordered_json::array();
+  for (const CertificateField& field : certificate_fields) {
+    properties[field.name] = {{"type", {"number", "null"}}, {"description", field.description}};
+    required.push_back(field.name);
+  }
+  return {{"type", "object"}, {"required", required}, {"properties", properties}};
 }
 
 ordered_json spacing_schema() {

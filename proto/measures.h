@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,6 +12,7 @@
 
 namespace wellspaced {
 
+struct Certificate;
 struct Spacing;
 
 /// One measure of `analyze`. Its object in the result is described by its schema.
@@ -26,5 +28,9 @@ std::span<const Measure> measures();
 
 nlohmann::ordered_json spacing_to_json(const Spacing& spacing);
 nlohmann::ordered_json spacing_schema();
+
+/// Each bound is null where there is no certificate.
+nlohmann::ordered_json certificate_to_json(const std::optional<Certificate>& certificate);
+nlohmann::ordered_json certificate_schema();
 
 }  // namespace wellspaced

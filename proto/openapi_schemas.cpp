@@ -129,11 +129,14 @@ void add_results(ordered_json& schemas) {
   ordered_json optimize = generate;
   for (const char* name : {"beta", "r_f", "r_c", "rho", "beta_i_max", "beta_i_mean"})
     optimize[name] = spacing_schema()["properties"][name];
+  const ordered_json proven = certificate_schema();
+  for (const auto& [name, schema] : proven["properties"].items()) optimize[name] = schema;
   optimize["sweeps"] = typed("integer", "done in all; the best state may be an earlier one");
   optimize["converged"] = {
       {"type", {"boolean", "null"}},
       {"description",
-       "whether the measured global beta is at most the target; null for methods without one"}};
+       "whether the target is reached, for beta: whether beta_upper is at most the target; null for methods "
+       "without one"}};
   optimize["history"] = {{"type", "array"},
                          {"description", "[sweep, beta, r_c, r_f], from the input (sweep 0) on"},
                          {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
@@ -141,8 +144,8 @@ void add_results(ordered_json& schemas) {
   for (const Measure& measure : measures()) analyze[measure.name] = measure.schema();
   schemas["GenerateResult"] = object(generate, {"n", "method", "parameters", "version", "domain", "points"});
   schemas["OptimizeResult"] =
-      object(optimize, {"n", "method", "parameters", "beta", "r_f", "r_c", "rho", "sweeps", "converged",
-                        "history", "version", "domain", "points"});
+      object(optimize, {"n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_upper", "r_f_lower",
+                        "r_c_upper", "sweeps", "converged", "history", "version", "domain", "points"});
   schemas["AnalyzeResult"] = object(analyze, {"n", "version", "domain"});
 }
 

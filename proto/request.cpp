@@ -88,6 +88,10 @@ Document read_document(const RawRequest& raw, const Limits& limits) {
   if (raw.operation == "generate")
     throw Error(ErrorCode::unsupported_media_type,
                 "generate takes no points; send its parameters as application/json");
+  for (const auto& [name, value] : raw.query)
+    if (name == "width" || name == "height")
+      throw Error(ErrorCode::invalid_parameters,
+                  "the sides of the torus are the parameters domain.width and domain.height", "/" + name);
   json root = object_from_query(raw.query);
   if (root.contains("points"))
     throw Error(ErrorCode::invalid_parameters, "the points are the body; leave this parameter out",

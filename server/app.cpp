@@ -47,6 +47,7 @@ WorkerPoolOptions pool_options(const Config& config) {
   options.threads_per_job = config.threads;
   options.job_limit_ms = config.job_limit_seconds * 1000;
   // Estimates are upper bounds for ordinary point sets; degenerate ones may take longer.
+  options.attached_workers = 1;
   options.attached_limit_ms = static_cast<std::int64_t>(2000 * config.limits.sync_seconds);
   options.lease_ms = config.jobs.lease_ms;
   return options;

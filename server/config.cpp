@@ -48,7 +48,8 @@ void add_settings(CLI::App& app, Config& c) {
                "serve on other than loopback addresses, to anyone who reaches them")
       ->envname("WELLSPACED_ALLOW_PUBLIC")
       ->group("Settings");
-  setting(app, "--workers", c.workers, "jobs computed at a time; 0: as many as cores");
+  setting(app, "--workers", c.workers,
+          "jobs computed at a time; 0: as many as cores. One more worker is kept for synchronous requests");
   setting(app, "--threads", c.threads, "threads a job; 0: as many as cores; never changes a result");
   setting(app, "--log-level", c.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));

@@ -64,9 +64,15 @@ void read_preferences(std::string_view text, Preference& preference) {
 }  // namespace
 
 std::string query_value(const http::Request& request, const std::string& name) {
-  for (const auto& [key, value] : request.query)
-    if (key == name) return value;
-  return {};
+  std::optional<std::string> found;
+  for (const auto& [key, value] : request.query) {
+    if (key != name) continue;
+    if (found) throw Error(ErrorCode::invalid_parameters, "given twice; give it once", "/" + name);
+    if (value.empty())
+      throw Error(ErrorCode::invalid_parameters, "it is empty; give a value or leave it out", "/" + name);
+    found = value;
+  }
+  return found.value_or("");
 }
 
 Wanted read_wanted(const http::Request& request, const std::string& operation) {

@@ -133,6 +133,17 @@ std::string entity_tag(const Job& job, const Wanted& wanted) {
          (wanted.picture.empty() ? "" : "-" + wanted.picture) + "-" + std::string(version()) + "\"";
 }
 
+bool read_purge(const http::Request& request) {
+  for (const auto& [name, value] : request.query)
+    if (name != "purge")
+      throw Error(ErrorCode::invalid_parameters, "unknown parameter; known here is: purge",
+                  pointer_token(name));
+  const std::string purge = query_value(request, "purge");
+  if (purge.empty() || purge == "false") return false;
+  if (purge == "true") return true;
+  throw Error(ErrorCode::invalid_parameters, "purge must be true or false", "/purge");
+}
+
 }  // namespace
 
 http::Response list_jobs(Context& context, const http::Request& request) {
@@ -196,7 +207,7 @@ http::Response get_events(Context& context, const http::Request& request) {
 
 http::Response delete_job(Context& context, const http::Request& request) {
   const std::string& id = request.parameter("id");
-  const bool purge = query_value(request, "purge") == "true";
+  const bool purge = read_purge(request);
   switch (context.pool->cancel(id)) {
     case CancelOutcome::requested:
       return json_response(job_to_json(find_job(context, id)));

@@ -14,7 +14,7 @@ struct JobLimits {
   int live_per_owner = 16;  ///< accepted or running, not attached; above: Error{too_many_jobs}
   std::int64_t lease_ms = 30'000;
   std::int64_t keep_result_ms = 24ll * 3600 * 1000;
-  int max_attempts = 3;      ///< then failed with worker_crashed
+  int max_attempts = 10;     ///< deaths of its worker, whatever the cause; then failed with worker_crashed
   int events_per_job = 256;  ///< the oldest are dropped first
 };
 
@@ -63,7 +63,8 @@ class JobStore {
 
   /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of
   /// attempts become failed (worker_crashed), attached ones whose lease ran out become dismissed.
-  virtual std::optional<Claim> claim(const std::string& worker) = 0;
+  /// `attached_only`: only a job whose client waits for it.
+  virtual std::optional<Claim> claim(const std::string& worker, bool attached_only = false) = 0;
   virtual Heartbeat heartbeat(const Claim& claim, double progress, const std::string& message) = 0;
   /// Each returns false, and changes nothing, if the claim no longer holds the job. A job whose cancel is
   /// requested may still be completed or failed: what reaches the store first counts.

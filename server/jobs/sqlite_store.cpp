@@ -59,7 +59,7 @@ class SqliteStore final : public JobStore {
   SqliteStore(const std::string& path, const JobLimits& limits, const SqliteOptions& options);
 
   Job submit(const JobSpec& spec) override;
-  std::optional<Claim> claim(const std::string& worker) override;
+  std::optional<Claim> claim(const std::string& worker, bool attached_only) override;
   Heartbeat heartbeat(const Claim& claim, double progress, const std::string& message) override;
   bool complete(const Claim& claim, const std::string& result) override;
   bool fail(const Claim& claim, const std::string& problem_json) override;
@@ -186,7 +186,7 @@ std::string SqliteStore::next_id(std::int64_t now_ms) {
 
 // ---- a worker's calls
 
-std::optional<Claim> SqliteStore::claim(const std::string& worker) {
+std::optional<Claim> SqliteStore::claim(const std::string& worker, bool attached_only) {
   return write([&](std::int64_t now_ms) -> std::optional<Claim> {
     for (const LostRun& run : runs_with_lease_until(now_ms)) settle(run, now_ms);
     Claim claim;
@@ -195,9 +195,9 @@ std::optional<Claim> SqliteStore::claim(const std::string& worker) {
           "UPDATE job SET state = 'running', attempt = attempt + 1, worker = ?1, lease_until = ?2, progress "
           "= 0,"
           " message = '', started = ?3, updated = ?3"
-          " WHERE id = (SELECT id FROM job WHERE state = 'accepted' ORDER BY id LIMIT 1) RETURNING id, "
-          "attempt",
-          worker, now_ms + limits_.lease_ms, now_ms);
+          " WHERE id = (SELECT id FROM job WHERE state = 'accepted' AND attached >= ?4 ORDER BY id"
+          " LIMIT 1) RETURNING id, attempt",
+          worker, now_ms + limits_.lease_ms, now_ms, attached_only);
       if (!taken.step()) return std::nullopt;
       claim.id = taken.text(0);
       claim.attempt = static_cast<int>(taken.integer(1));

@@ -101,7 +101,8 @@ WorkerPool::WorkerPool(JobStore& store, WorkerPoolOptions options, JobRunner run
       run_(std::move(run)),
       on_finished_(on_finished ? std::move(on_finished) : [](const JobFinished&) {}),
       on_event_(on_event ? std::move(on_event) : [] {}) {
-  for (unsigned i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { work(); });
+  for (unsigned i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { work(false); });
+  for (unsigned i = 0; i < options_.attached_workers; ++i) threads_.emplace_back([this] { work(true); });
   threads_.emplace_back([this] { tend(); });
   threads_.emplace_back([this] { clean(); });
 }
@@ -118,7 +119,7 @@ void WorkerPool::notify() {
     const std::lock_guard guard(mutex_);
     ++submitted_;
   }
-  work_to_do_.notify_one();
+  work_to_do_.notify_all();  // not every worker takes every job
 }
 
 void WorkerPool::wake_waiters() {
@@ -199,23 +200,23 @@ bool WorkerPool::stop() {
 
 // ---- workers
 
-void WorkerPool::work() {
+void WorkerPool::work(bool attached_only) {
   for (;;) {
     std::unique_lock lock(mutex_);
     if (stopping_) return;
     const std::uint64_t seen = submitted_;
     lock.unlock();
-    if (claim_and_run()) continue;
+    if (claim_and_run(attached_only)) continue;
     lock.lock();
     work_to_do_.wait_for(lock, milliseconds(options_.claim_every_ms),
                          [&] { return stopping_ || submitted_ != seen; });
   }
 }
 
-bool WorkerPool::claim_and_run() {
+bool WorkerPool::claim_and_run(bool attached_only) {
   std::optional<Claim> claim;
   try {
-    claim = store_.claim(options_.name);
+    claim = store_.claim(options_.name, attached_only);
   } catch (const std::exception& error) {  // also when the request doesn't fit into memory
     spdlog::error("no job can be claimed: {}", error.what());
     return false;

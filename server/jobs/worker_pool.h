@@ -28,6 +28,7 @@ struct JobFinished {
 
 struct WorkerPoolOptions {
   unsigned workers = 1;
+  unsigned attached_workers = 0;  ///< more of them, for jobs whose client waits; never behind long work
   unsigned threads_per_job = 1;
   std::int64_t job_limit_ms = 3'600'000;
   std::int64_t attached_limit_ms = 60'000;  ///< for jobs whose client waits for them
@@ -94,8 +95,8 @@ class WorkerPool {
     std::string bytes;  ///< result or problem
   };
 
-  void work();
-  bool claim_and_run();
+  void work(bool attached_only);
+  bool claim_and_run(bool attached_only);
   RunPointer begin(Claim claim);
   void execute(const RunPointer& run);
   Outcome compute(Run& run);

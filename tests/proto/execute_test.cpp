@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/analyze/certificate.h"
 #include "core/analyze/spacing.h"
 #include "tests/support/proto_requests.h"
 
@@ -56,14 +57,19 @@ TEST(Execute, OptimizeTellsWhatItReached) {
   const Result result = run("optimize", optimize_400);
   EXPECT_THAT(keys(result.summary),
               ElementsAre("n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_i_max",
-                          "beta_i_mean", "sweeps", "converged", "history", "seed", "version", "domain"));
+                          "beta_i_mean", "sweeps", "beta_upper", "r_f_lower", "r_c_upper", "converged",
+                          "history", "seed", "version", "domain"));
   const Spacing spacing = measure_spacing(result.points, Control());
   EXPECT_EQ(result.summary["n"], result.points.size());
   EXPECT_EQ(result.summary["parameters"].dump(), R"({"beta":0.9,"max_sweeps":20})");
   EXPECT_EQ(result.summary["beta"], spacing.beta);
   EXPECT_EQ(result.summary["r_f"], spacing.r_f);
   EXPECT_EQ(result.summary["r_c"], spacing.r_c);
-  EXPECT_EQ(result.summary["converged"], spacing.beta <= 0.9);
+  const Certificate proof = certify(result.points, Control()).value();
+  EXPECT_EQ(result.summary["beta_upper"], proof.beta_upper);
+  EXPECT_EQ(result.summary["r_f_lower"], proof.r_f_lower);
+  EXPECT_EQ(result.summary["r_c_upper"], proof.r_c_upper);
+  EXPECT_EQ(result.summary["converged"], proof.beta_upper <= 0.9);
   const auto& history = result.summary["history"];
   ASSERT_EQ(history.size(), result.summary["sweeps"].get<std::size_t>() + 1);
   double best = history[0][1];
@@ -92,6 +98,23 @@ TEST(Execute, OptimizeSaysWhenItMissedItsTarget) {
   EXPECT_EQ(result.summary["converged"], false);
   EXPECT_EQ(result.summary["sweeps"], 2);
   EXPECT_LT(result.summary["beta"].get<double>(), 1);
+}
+
+TEST(Execute, CountsATargetAsReachedOnlyWhenThatIsProven) {
+  // A lattice's beta is 1 / sqrt(2) to within rounding, so no bound on it can be that low.
+  const Result result = run("optimize", R"({"points":{"generate":{"method":"square","count":100}},"beta":)" +
+                                            std::to_string(0.70710678118654746) + "}");
+  EXPECT_GT(result.summary["beta_upper"].get<double>(), result.summary["beta"].get<double>());
+  EXPECT_EQ(result.summary["converged"],
+            result.summary["beta_upper"].get<double>() <= result.summary["parameters"]["beta"].get<double>());
+}
+
+TEST(Execute, AnalyzeProvesOnRequest) {
+  const Result result =
+      run("analyze", R"({"points":{"generate":{"count":200}},"measures":["certificate","spacing"]})");
+  EXPECT_THAT(keys(result.summary["certificate"]), ElementsAre("beta_upper", "r_f_lower", "r_c_upper"));
+  EXPECT_NEAR(result.summary["certificate"]["beta_upper"].get<double>(),
+              result.summary["spacing"]["beta"].get<double>(), 1e-11);
 }
 
 TEST(Execute, AnalyzeTellsOneObjectAMeasure) {

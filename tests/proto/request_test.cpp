@@ -181,9 +181,10 @@ TEST(ReadRequest, RefusesInlinePointsThatNoMethodCanWorkWith) {
     expect_refusals({
         {operation, "{}", invalid, "/points", "the field is missing"},
         {operation, R"({"points":null})", invalid, "/points", "the field is missing"},
-        {operation, R"({"points":[]})", ErrorCode::degenerate_input, "/points", "0 points; at least 3"},
+        {operation, R"({"points":[]})", ErrorCode::degenerate_input, "/points",
+         "at least 3 points are needed; the point set has 0"},
         {operation, R"({"points":[[0,0],[0.5,0.5]]})", ErrorCode::degenerate_input, "/points",
-         "2 points; at least 3"},
+         "at least 3 points are needed; the point set has 2"},
         {operation, R"({"points":{"points":[[0,0]]}})", ErrorCode::degenerate_input, "/points/points",
          "at least 3"},
         {operation, R"({"points":{"generate":{"count":2}}})", ErrorCode::degenerate_input,

@@ -78,6 +78,16 @@ TEST_P(JobStoreTest, ClaimsInTheOrderOfSubmission) {
   EXPECT_FALSE(store().claim("a worker"));
 }
 
+TEST_P(JobStoreTest, GivesOnlyAttachedJobsToThoseWhoAskForThem) {
+  submit();
+  JobSpec spec = some_spec();
+  spec.attached = true;
+  const std::string attached = store().submit(spec).id;
+  EXPECT_EQ(store().claim("a worker", true).value().id, attached);
+  EXPECT_FALSE(store().claim("a worker", true));
+  EXPECT_TRUE(store().claim("a worker"));
+}
+
 TEST_P(JobStoreTest, KeepsTheOrderOfIdsWhenTheClockIsSetBack) {
   const std::string first = submit();
   test_store().advance(-3'600'000);

@@ -108,6 +108,11 @@ TEST_F(ServiceJobs, DeleteOfAFinishedJobNeedsPurge) {
   EXPECT_EQ(kept.status, 409);
   EXPECT_EQ(kept.problem(), "conflict");
   EXPECT_EQ(caller.get("/v1/jobs/" + id + "/result").status, 200);
+  for (const char* wrong : {"?purge=maybe", "?purge=", "?purge=true&purge=true"}) {
+    EXPECT_EQ(caller.remove("/v1/jobs/" + id + wrong).status, 422) << wrong;
+    EXPECT_EQ(caller.remove("/v1/jobs/" + id + wrong).pointer(), "/purge") << wrong;
+  }
+  EXPECT_EQ(caller.remove("/v1/jobs/" + id + "?now=1").pointer(), "/now");
   EXPECT_EQ(caller.remove("/v1/jobs/" + id + "?purge=true").status, 204);
   EXPECT_EQ(caller.get("/v1/jobs/" + id).problem(), "no-such-job");
 }
@@ -125,6 +130,15 @@ TEST_F(ServiceJobs, AResultThatAWaitingJobNeedsCanNotBePurged) {
   busy_caller.remove("/v1/jobs/" + running);
   EXPECT_EQ(busy_caller.finished(user)["status"], "successful");
   EXPECT_EQ(busy_caller.remove("/v1/jobs/" + source + "?purge=true").status, 204);
+}
+
+TEST_F(ServiceJobs, WorkThatSomebodyWaitsForIsNotBehindLongJobs) {
+  const ServedApp busy(one_worker);
+  const Caller busy_caller(busy.port());
+  for (int k = 0; k < 3; ++k) busy_caller.submit("optimize", endless_request());
+  ASSERT_TRUE(eventually([&] { return busy_caller.metric("wellspaced_jobs_running") == 1; }));
+  EXPECT_EQ(busy_caller.post("/v1/generate", R"({"count":50})").status, 200);
+  EXPECT_EQ(busy_caller.metric("wellspaced_jobs_running"), 1);
 }
 
 TEST_F(ServiceJobs, ListsByPagesFromTheNewest) {

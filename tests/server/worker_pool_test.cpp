@@ -36,9 +36,9 @@ class FailingStore final : public JobStore {
   std::atomic<ErrorCode> code = ErrorCode::storage_unavailable;
 
   Job submit(const JobSpec& spec) override { return store_.submit(spec); }
-  std::optional<Claim> claim(const std::string& worker) override {
+  std::optional<Claim> claim(const std::string& worker, bool attached_only = false) override {
     fail_if(failing_claims);
-    return store_.claim(worker);
+    return store_.claim(worker, attached_only);
   }
   Heartbeat heartbeat(const Claim& c, double p, const std::string& m) override {
     return store_.heartbeat(c, p, m);
