@@ -195,6 +195,25 @@ Parameter randomness() {
 }
 
 const std::vector<Optimizer> optimizer_rows = {
+    {{"opt-beta",
+      "Opt-beta",
+      "Pushes and pulls the points that violate absolute radii, on a triangulation that is kept while they "
+      "move, until the global beta is at most the target; sets of fewer than 20 points, or on a torus "
+      "thinner "
+      "than four times their mean spacing, go the way of opt-beta-local.",
+      "Radii as in Ahmed et al., A Simple Push-Pull Algorithm for Blue-Noise Sampling, 2017; the rest is "
+      "this project's",
+      {beta("0.75"),
+       randomness(),
+       {"max_visits", Parameter::Type::integer,
+        "Visits a point (a sweep visits marked points only) after which the best state is returned", "", 1,
+        1000000, false, false, "250 for a beta of at least 0.7, else 20000"}}},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return opt_beta(points, opt_beta_options(a), control);
+     },
+     [](const Arguments& a) {
+       return Cost{0.12e-6 * allowed_visits(opt_beta_options(a)) + 12e-6, 400};
+     }},
     {{"opt-beta-local",
       "Opt-beta^i",
       "The paper's method: each point in turn moves to where its own ratio beta_i is least, until the global "
@@ -212,24 +231,6 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{13e-6 * opt_beta_local_options(a).max_sweeps + 10e-6, 220};
-     }},
-    {{"opt-beta",
-      "Opt-beta",
-      "Pushes and pulls the points that violate absolute radii, on a triangulation that is kept while they "
-      "move, until "
-      "the global beta is at most the target; takes 20 points or more that are spread over their domain.",
-      "Radii as in Ahmed et al., A Simple Push-Pull Algorithm for Blue-Noise Sampling, 2017; the rest is "
-      "this project's",
-      {beta("0.75"),
-       randomness(),
-       {"max_visits", Parameter::Type::integer,
-        "Visits a point (a sweep visits marked points only) after which the best state is returned", "", 1,
-        1000000, false, false, "250 for a beta of at least 0.7, else 20000"}}},
-     [](const PointSet& points, const Arguments& a, Control& control) {
-       return opt_beta(points, opt_beta_options(a), control);
-     },
-     [](const Arguments& a) {
-       return Cost{0.12e-6 * allowed_visits(opt_beta_options(a)) + 12e-6, 400};
      }},
 };
 

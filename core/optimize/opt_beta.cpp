@@ -5,11 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
+#include "core/optimize/opt_beta_local.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/voronoi/star_mesh.h"
 
@@ -76,8 +78,8 @@ PushPull targets_for(double beta, OptBetaOptions::Randomness randomness) {
 
 class Descent {
  public:
-  Descent(const PointSet& input, const OptBetaOptions& options, Control& control)
-      : input_(input), options_(options), control_(control), mesh_(input, control), best_(mesh_.snapshot()) {
+  Descent(StarMesh mesh, const PointSet& input, const OptBetaOptions& options, Control& control)
+      : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.snapshot()) {
     budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
     record();
   }
@@ -224,6 +226,30 @@ class Descent {
   std::vector<SweepRecord> history_;
 };
 
+/// Nothing if the points are too unevenly spread.
+std::optional<StarMesh> try_mesh(const PointSet& points, const Control& control) {
+  try {
+    return StarMesh(points, control);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::degenerate_input) throw;
+    return std::nullopt;
+  }
+}
+
+/// Point by point, for sets that a mesh can't hold.
+OptimizeResult by_local_ratios(const PointSet& input, const OptBetaOptions& options, int most_sweeps,
+                               Control& control) {
+  return opt_beta_local(input, {options.beta, std::min(most_sweeps, allowed_visits(options)), {}}, control);
+}
+
+OptimizeResult one_after_the_other(OptimizeResult first, OptimizeResult second) {
+  for (SweepRecord& record : second.history) record.sweep += first.sweeps;
+  first.history.insert(first.history.end(), second.history.begin() + 1, second.history.end());
+  second.history = std::move(first.history);
+  second.sweeps += first.sweeps;
+  return second;
+}
+
 }  // namespace
 
 int allowed_visits(const OptBetaOptions& options) {
@@ -231,8 +257,17 @@ int allowed_visits(const OptBetaOptions& options) {
 }
 
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control) {
+  constexpr int sweeps_to_even_out = 3, most_sweeps_without_mesh = 60;
   require_options(options);
-  return Descent(input, options, control).run();
+  require_usable(input, control);
+  if (StarMesh::why_too_small(*input.domain, input.size()))
+    return by_local_ratios(input, options, most_sweeps_without_mesh, control);
+  if (auto mesh = try_mesh(input, control)) return Descent(std::move(*mesh), input, options, control).run();
+  OptimizeResult evened = by_local_ratios(input, options, sweeps_to_even_out, control);
+  auto mesh = evened.converged == true ? std::nullopt : try_mesh(evened.points, control);
+  if (!mesh) return evened;
+  OptimizeResult result = Descent(std::move(*mesh), evened.points, options, control).run();
+  return one_after_the_other(std::move(evened), std::move(result));
 }
 
 }  // namespace wellspaced

@@ -26,9 +26,12 @@ int allowed_visits(const OptBetaOptions& options);
 /// Below .70 beta is lowered step by step, each from the state that the last one reached; a step that fails
 /// is undone and tried again with other weights, then halved.
 ///
+/// Sets that a StarMesh can't hold are optimized by opt_beta_local instead: for good if they have fewer than
+/// 20 points or their torus is thinner than 4 d_hex, else for a few sweeps that even them out.
+///
 /// Guarantees: those of OptimizeResult; points that violate nothing on the way are returned bit for bit.
 /// `history` holds the sweeps 0, 1, 2, 4, ... and every 64th, a sweep visiting only points that are marked.
-/// Errors: those of StarMesh; infeasible or invalid_parameters at /beta, /max_visits; cancelled,
+/// Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits; cancelled,
 /// deadline_exceeded.
 /// Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to .75, 40 to .70 where fast, two
 /// to three times as many where gentle; 110 bytes a point.

@@ -28,26 +28,11 @@ double to_length(std::uint32_t x, double period) {
   return length < period ? length : 0.0;
 }
 
-void require_room(const PointSet& points, double spacing) {
-  constexpr std::size_t fewest = 20;
-  constexpr double thinnest = 4;
-  if (points.size() < fewest)
-    throw Error(ErrorCode::degenerate_input, "this method needs at least 20 points; the set has " +
-                                                 std::to_string(points.size()) +
-                                                 " (opt-beta-local takes fewer)");
-  const Box box = points.domain->box();
-  if (std::min(box.size.x, box.size.y) < thinnest * spacing)
-    throw Error(
-        ErrorCode::degenerate_input,
-        "the torus is thinner than four times the mean spacing of its points, so that cells wrap around "
-        "it; use more points or opt-beta-local");
-}
-
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ErrorCode::degenerate_input,
               why +
                   "; start from a point set that is spread over its domain, such as "
-                  "poisson-disk gives, or use opt-beta-local");
+                  "poisson-disk gives, or use opt-beta");
 }
 
 }  // namespace
@@ -58,7 +43,8 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
   width_ = box.size.x;
   height_ = box.size.y;
   spacing_ = hexagonal_spacing(points.domain->area(), points.size());
-  require_room(points, spacing_);
+  if (const auto why = why_too_small(*points.domain, points.size()))
+    throw Error(ErrorCode::degenerate_input, *why);
   scale_ = {width_ / turn / spacing_, height_ / turn / spacing_};
   build_stars(points, control);
   marks_.assign((size() + 63) / 64, 0);
@@ -99,6 +85,20 @@ void StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
   }
   for (std::size_t k = 0; k < at_.size(); ++k) rounded.set(k, {order.x[k], order.y[k], 0});
   collect_stars(rounded, control);
+}
+
+std::optional<std::string> StarMesh::why_too_small(const Domain& domain, std::size_t n) {
+  constexpr std::size_t fewest = 20;
+  constexpr double thinnest = 4;
+  if (n < fewest)
+    return "this method needs at least 20 points; the set has " + std::to_string(n) +
+           " (opt-beta takes fewer)";
+  const Box box = domain.box();
+  if (std::min(box.size.x, box.size.y) < thinnest * hexagonal_spacing(domain.area(), n))
+    return "the torus is thinner than four times the mean spacing of its points, so that cells wrap around "
+           "it; "
+           "use more points or opt-beta";
+  return std::nullopt;
 }
 
 Territory StarMesh::everywhere() const {

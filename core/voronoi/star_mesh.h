@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,6 +69,9 @@ struct Strip {
 class StarMesh {
  public:
   StarMesh(const PointSet& points, const Control& control);
+
+  /// Why a torus with so many points has no room for this; nothing if it has.
+  static std::optional<std::string> why_too_small(const Domain& domain, std::size_t n);
 
   std::size_t size() const { return at_.size(); }
   double spacing() const { return spacing_; }  ///< d_hex in domain lengths

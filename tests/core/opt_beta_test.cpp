@@ -108,6 +108,36 @@ TEST(OptBeta, IsNeverWorseThanItsInput) {
   }
 }
 
+TEST(OptBeta, TakesSetsThatAMeshCanNotHold) {
+  struct Case {
+    PointSet input;
+    double reached;
+  };
+  PointSet wheel = random_points(1, 1, 160, 7);
+  for (int k = 0; k < 40; ++k)
+    wheel.push_back({0.5 + 0.2 * std::cos(k * 0.157 + 0.01), 0.5 + 0.2 * std::sin(k * 0.157 + 0.01), 0});
+  for (const auto& [input, reached] : {Case{mps(7, 1), 0.9}, Case{random_points(1, 1, 15, 2), 0.9},
+                                       Case{random_points(20, 0.1, 60, 3), 0.95}, Case{wheel, 0.75}}) {
+    Control control;
+    const OptimizeResult result = opt_beta(input, to(0.75), control);
+    EXPECT_EQ(result.points.size(), input.size());
+    const double beta = measure_spacing(result.points, control).beta;
+    EXPECT_LE(beta, reached);
+    EXPECT_EQ(result.converged, beta <= 0.75);
+    for (std::size_t k = 1; k < result.history.size(); ++k)
+      EXPECT_GT(result.history[k].sweep, result.history[k - 1].sweep);
+    EXPECT_EQ(result.history.back().sweep, result.sweeps);
+  }
+}
+
+TEST(OptBeta, EvensOutWhiteNoise) {
+  for (const std::size_t n : {500u, 20000u}) {
+    Control control(2);
+    const OptimizeResult result = opt_beta(random_points(1, 1, n, 3), to(0.75), control);
+    EXPECT_EQ(result.converged, true) << n;
+  }
+}
+
 TEST(OptBeta, KeepsPointsThatViolateNothing) {
   const PointSet input = mps(2000, 4);
   Control control;

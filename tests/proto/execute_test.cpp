@@ -24,7 +24,7 @@ std::vector<std::string> keys(const nlohmann::ordered_json& object) {
 }
 
 const char* const optimize_400 =
-    R"({"points":{"generate":{"count":400,"seed":3}},"beta":0.9,"max_sweeps":20})";
+    R"({"points":{"generate":{"count":400,"seed":3}},"method":"opt-beta-local","beta":0.9,"max_sweeps":20})";
 
 TEST(Execute, GenerateTellsWhatItMade) {
   const Result result = run("generate", R"({"count":500,"seed":7,"domain":{"width":2}})");
@@ -94,7 +94,9 @@ TEST(Execute, TellsAChoiceByItsName) {
 }
 
 TEST(Execute, OptimizeSaysWhenItMissedItsTarget) {
-  const Result result = run("optimize", R"({"points":{"generate":{"count":300}},"beta":0.6,"max_sweeps":2})");
+  const Result result =
+      run("optimize",
+          R"({"points":{"generate":{"count":300}},"method":"opt-beta-local","beta":0.6,"max_sweeps":2})");
   EXPECT_EQ(result.summary["converged"], false);
   EXPECT_EQ(result.summary["sweeps"], 2);
   EXPECT_LT(result.summary["beta"].get<double>(), 1);
@@ -153,11 +155,13 @@ TEST(Execute, SeesNoDifferenceBetweenGeneratedAndUploadedPoints) {
   const Result made = run("generate", R"({"count":300,"seed":2})");
   const std::string bytes = encode_result(made, Format::npy, "", {}, Control()).bytes;
   Control control;
-  const Result uploaded = execute(
-      testing::read_table("optimize", "application/x-npy", bytes, {{"beta", "0.9"}, {"max_sweeps", "3"}}),
-      control);
-  const Result chained =
-      run("optimize", R"({"points":{"generate":{"count":300,"seed":2}},"beta":0.9,"max_sweeps":3})");
+  const Result uploaded =
+      execute(testing::read_table("optimize", "application/x-npy", bytes,
+                                  {{"method", "opt-beta-local"}, {"beta", "0.9"}, {"max_sweeps", "3"}}),
+              control);
+  const Result chained = run(
+      "optimize",
+      R"({"points":{"generate":{"count":300,"seed":2}},"method":"opt-beta-local","beta":0.9,"max_sweeps":3})");
   EXPECT_EQ(uploaded.points.coordinates, chained.points.coordinates);
 }
 

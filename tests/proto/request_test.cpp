@@ -162,11 +162,15 @@ TEST(ReadRequest, RefusesOptimizerParametersOutsideTheirRange) {
       {"optimize", with(R"("beta":-1)"), ErrorCode::infeasible, "/beta", "triangular lattice"},
       {"optimize", with(R"("beta":1)"), invalid, "/beta", "must be a number in [0.577"},
       {"optimize", with(R"("beta":7.5)"), invalid, "/beta", "1); found 7.5"},
-      {"optimize", with(R"("max_sweeps":0)"), invalid, "/max_sweeps", "in [1, 10000]"},
-      {"optimize", with(R"("max_sweeps":10001)"), invalid, "/max_sweeps", "in [1, 10000]"},
-      {"optimize", with(R"("max_sweeps":1.5)"), invalid, "/max_sweeps", "whole number"},
-      {"optimize", with(R"("damping":0)"), invalid, "/damping", "in (0, 1]"},
-      {"optimize", with(R"("damping":1.01)"), invalid, "/damping", "in (0, 1]; found 1.01"},
+      {"optimize", with(R"("method":"opt-beta-local","max_sweeps":0)"), invalid, "/max_sweeps",
+       "in [1, 10000]"},
+      {"optimize", with(R"("method":"opt-beta-local","max_sweeps":10001)"), invalid, "/max_sweeps",
+       "in [1, 10000]"},
+      {"optimize", with(R"("method":"opt-beta-local","max_sweeps":1.5)"), invalid, "/max_sweeps",
+       "whole number"},
+      {"optimize", with(R"("method":"opt-beta-local","damping":0)"), invalid, "/damping", "in (0, 1]"},
+      {"optimize", with(R"("method":"opt-beta-local","damping":1.01)"), invalid, "/damping",
+       "in (0, 1]; found 1.01"},
       {"optimize", with(R"("method":"opt-beta","randomness":"wild")"), invalid, "/randomness",
        "must be one of gentle, fast; found another word"},
       {"optimize", with(R"("method":"opt-beta","randomness":1)"), invalid, "/randomness",
@@ -340,7 +344,7 @@ TEST(ReadRequest, FillsInTheDefaults) {
   EXPECT_THAT(generate.arguments, ElementsAre(std::pair<const std::string, double>("count", 1000)));
   EXPECT_EQ(request.picture, "");
   const auto optimize = read("optimize", R"({"points":{"generate":{"count":10}}})");
-  EXPECT_EQ(std::get<OptimizeRequest>(optimize.operation).method->name, "opt-beta-local");
+  EXPECT_EQ(std::get<OptimizeRequest>(optimize.operation).method->name, "opt-beta");
   EXPECT_TRUE(std::get<OptimizeRequest>(optimize.operation).arguments.empty());
   const auto analyze = read("analyze", R"({"points":{"generate":{"count":10}}})");
   ASSERT_EQ(std::get<AnalyzeRequest>(analyze.operation).measures.size(), 1u);
@@ -385,7 +389,8 @@ TEST(ExpectedCost, GrowsWithTheCountAndWithTheSweeps) {
   };
   const auto optimize = [&](int count, int sweeps) {
     return seconds("optimize", R"({"points":{"generate":{"count":)" + std::to_string(count) +
-                                   R"(}},"max_sweeps":)" + std::to_string(sweeps) + "}");
+                                   R"(}},"method":"opt-beta-local","max_sweeps":)" + std::to_string(sweeps) +
+                                   "}");
   };
   EXPECT_NEAR(optimize(100000, 100) / optimize(1000, 100), 100, 1e-6);
   EXPECT_GT(optimize(1000, 1000), 5 * optimize(1000, 100));

@@ -22,9 +22,10 @@ std::vector<Result> some_results() {
       run("generate", R"({"count":50,"domain":{"width":1e-6,"height":1e-6}})"),
       run("generate", R"({"count":50,"domain":{"width":1e6,"height":123456.789}})"),
       run("generate", R"({"count":1})"),
-      run("optimize", R"({"points":{"generate":{"count":60,"seed":18446744073709551615}},"max_sweeps":2})"),
       run("optimize",
-          R"({"points":{"generate":{"count":60,"domain":{"width":1e6,"height":1e6}}},"max_sweeps":2})"),
+          R"({"points":{"generate":{"count":60,"seed":18446744073709551615}},"method":"opt-beta-local","max_sweeps":2})"),
+      run("optimize",
+          R"({"points":{"generate":{"count":60,"domain":{"width":1e6,"height":1e6}}},"method":"opt-beta-local","max_sweeps":2})"),
       run("analyze", R"({"points":{"generate":{"count":60,"domain":{"width":1e-6,"height":3e-6}}}})"),
       run("analyze", R"({"points":{"job":"known"}})"),
   };

@@ -239,10 +239,12 @@ TEST_F(ServiceJobs, ResultsHaveTagsAndRangesAndHeads) {
 TEST_F(ServiceJobs, AJobsPointsFeedTheNextRequestAsynchronousOrNot) {
   const std::string made = caller.submit("generate", R"({"count":300,"seed":5})");
   ASSERT_EQ(caller.finished(made)["status"], "successful");
-  const Answer chained = caller.post("/v1/optimize", R"({"max_sweeps":3,"points":{"job":")" + made + "\"}}");
+  const Answer chained = caller.post(
+      "/v1/optimize", R"({"method":"opt-beta-local","max_sweeps":3,"points":{"job":")" + made + "\"}}");
   ASSERT_EQ(chained.status, 200) << chained.body;
-  const Answer direct =
-      caller.post("/v1/optimize", R"({"max_sweeps":3,"points":{"generate":{"count":300,"seed":5}}})");
+  const Answer direct = caller.post(
+      "/v1/optimize",
+      R"({"method":"opt-beta-local","max_sweeps":3,"points":{"generate":{"count":300,"seed":5}}})");
   EXPECT_EQ(chained.parsed()["points"], direct.parsed()["points"]);
   const std::string synchronous = chained.header("Wellspaced-Job");
   const Answer measured = caller.post("/v1/analyze", R"({"points":{"job":")" + synchronous + "\"}}");

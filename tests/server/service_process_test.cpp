@@ -260,7 +260,8 @@ TEST_F(ServiceProcess, RunReadsStandardInputAndWritesStandardOutput) {
 TEST_F(ServiceProcess, RunTakesPointsFromAnotherRunsFile) {
   const std::string request = file("request.json", R"({"count":200})"), points = directory / "points.npy";
   EXPECT_EQ(Process({"run", "generate", request, "-o", points}).wait(), 0);
-  Process process({"run", "optimize", points, "-o", directory / "better.csv", "--query", "max_sweeps=3"});
+  Process process({"run", "optimize", points, "-o", directory / "better.csv", "--query",
+                   "method=opt-beta-local", "--query", "max_sweeps=3"});
   EXPECT_EQ(process.wait(), 0) << process.err();
   EXPECT_GT(support::read_file(directory / "better.csv").size(), 1000u);
 }

@@ -134,11 +134,12 @@ TEST_F(Service, RefusesFormatsItDoesNotHaveWithTheListOfThoseItHas) {
 
 TEST_F(Service, ReadsPointsAsNpyAndCsvWithTheParametersInTheQuery) {
   const std::string npy = caller.post("/v1/generate?format=npy", R"({"count":300})").body;
-  const Answer from_npy =
-      caller.post("/v1/optimize?beta=0.9&max_sweeps=5&format=csv", npy, {}, "application/x-npy");
+  const Answer from_npy = caller.post("/v1/optimize?method=opt-beta-local&beta=0.9&max_sweeps=5&format=csv",
+                                      npy, {}, "application/x-npy");
   ASSERT_EQ(from_npy.status, 200) << from_npy.body;
   const std::string csv = caller.post("/v1/generate?format=csv", R"({"count":300})").body;
-  const Answer from_csv = caller.post("/v1/optimize?beta=0.9&max_sweeps=5&format=csv", csv, {}, "text/csv");
+  const Answer from_csv =
+      caller.post("/v1/optimize?method=opt-beta-local&beta=0.9&max_sweeps=5&format=csv", csv, {}, "text/csv");
   EXPECT_EQ(from_csv.body, from_npy.body);
 }
 

@@ -148,7 +148,11 @@ bool Caller::idle() const {
 
 std::string optimize_request(int count, double beta, int max_sweeps) {
   const json generate = {{"method", "poisson-disk"}, {"count", count}, {"seed", 1}};
-  return json({{"points", {{"generate", generate}}}, {"beta", beta}, {"max_sweeps", max_sweeps}}).dump();
+  return json({{"points", {{"generate", generate}}},
+               {"method", "opt-beta-local"},
+               {"beta", beta},
+               {"max_sweeps", max_sweeps}})
+      .dump();
 }
 
 std::string endless_request() { return optimize_request(20000, 0.58, 10000); }
