@@ -11,6 +11,7 @@
 #include "core/generate/white_noise.h"
 #include "core/optimize/opt_beta.h"
 #include "core/optimize/opt_beta_local.h"
+#include "core/optimize/push_pull.h"
 
 namespace wellspaced {
 namespace {
@@ -194,6 +195,59 @@ Parameter randomness() {
   return p;
 }
 
+Parameter max_sweeps(const std::string& fallback) {
+  return {"max_sweeps",
+          Parameter::Type::integer,
+          "Sweeps over the points after which the best state is returned",
+          "",
+          1,
+          10000,
+          false,
+          false,
+          fallback};
+}
+
+PushPullOptions push_pull_options(const Arguments& a) {
+  PushPullOptions options;
+  options.rho = argument(a, "rho").value_or(options.rho);
+  options.coverage = argument(a, "coverage").value_or(options.coverage);
+  options.area_sd = argument(a, "area_sd");
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  return options;
+}
+
+std::vector<Parameter> push_pull_parameters() {
+  Parameter rho{"rho",
+                Parameter::Type::number,
+                "Target for the conflict radius: r_f is at least rho d_hex, d_hex being the spacing of the "
+                "triangular lattice with as many points",
+                "",
+                0,
+                1,
+                true,
+                false,
+                "0.87"};
+  rho.infeasible_above =
+      "no point set in the plane has r_f above d_hex, that of the triangular lattice: rho is at most 1";
+  Parameter coverage{"coverage",
+                     Parameter::Type::number,
+                     "Target for the coverage radius: r_c is at most coverage d_hex",
+                     "",
+                     1 / std::sqrt(3.0),
+                     100,
+                     false,
+                     false,
+                     "0.65"};
+  coverage.infeasible_below =
+      "no point set in the plane has r_c below d_hex/sqrt(3), that of the triangular lattice: coverage is at "
+      "least 0.57735";
+  return {rho,
+          coverage,
+          {"area_sd", Parameter::Type::number,
+           "Target for the cells' areas: each is within this part of their mean", "", 0, 10, true, false, ""},
+          max_sweeps("1000")};
+}
+
 const std::vector<Optimizer> optimizer_rows = {
     {{"opt-beta-local",
       "Opt-beta^i",
@@ -203,8 +257,7 @@ const std::vector<Optimizer> optimizer_rows = {
       "Ebeida et al., Improving Spatial Coverage while Preserving the Blue Noise of Point Sets, 2013, "
       "section 4",
       {beta("0.85"),
-       {"max_sweeps", Parameter::Type::integer,
-        "Sweeps over all points after which the best state is returned", "", 1, 10000, false, false, "100"},
+       max_sweeps("100"),
        {"damping", Parameter::Type::number, "Part of each found move that is made", "", 0, 1, true, false,
         "0.7 for beta above 0.9, else 1"}}},
      [](const PointSet& points, const Arguments& a, Control& control) {
@@ -230,6 +283,19 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{0.12e-6 * allowed_visits(opt_beta_options(a)) + 12e-6, 400};
+     }},
+    {{"push-pull", "Push-pull",
+      "Pushes points away from neighbors that are too near and pulls them towards gaps that are too wide, "
+      "until absolute targets for both radii, and for the cells' areas if wanted, hold; takes 20 points or "
+      "more that are spread over their domain.",
+      "Ahmed et al., A Simple Push-Pull Algorithm for Blue-Noise Sampling, 2017", push_pull_parameters()},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return push_pull(points, push_pull_options(a), control);
+     },
+     [](const Arguments& a) {
+       const PushPullOptions options = push_pull_options(a);
+       return options.area_sd ? Cost{0.2e-6 * options.max_sweeps + 30e-6, 250}
+                              : Cost{0.04e-6 * options.max_sweeps + 24e-6, 250};
      }},
 };
 

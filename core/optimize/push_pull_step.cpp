@@ -190,4 +190,15 @@ bool push_pull_step(StarMesh& mesh, std::size_t i, const PushPull& targets) {
   return Visit<16>(mesh, i, targets).run().value();
 }
 
+SweepCount push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Control& control) {
+  constexpr std::size_t between_checks = 4096;
+  SweepCount count;
+  for (std::size_t i = mesh.take_marked(0); i < mesh.size(); i = mesh.take_marked(i + 1)) {
+    if (++count.visits % between_checks == 0) control.check();
+    count.moves += push_pull_step(mesh, i, targets) ? 1 : 0;
+  }
+  control.check();
+  return count;
+}
+
 }  // namespace wellspaced

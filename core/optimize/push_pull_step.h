@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/control.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -25,5 +26,13 @@ struct PushPull {
 /// Reference: Ahmed, Guo, Yan, Franceschi, Zhang, Deussen, "A Simple Push-Pull Algorithm for Blue-Noise
 /// Sampling", 2017, for moving only what violates absolute radii.
 bool push_pull_step(StarMesh& mesh, std::size_t i, const PushPull& targets);
+
+struct SweepCount {
+  std::size_t visits = 0, moves = 0;
+};
+
+/// One step for each marked point, in memory order; points marked on the way and further on are visited too.
+/// Errors: cancelled, deadline_exceeded, between two steps.
+SweepCount push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Control& control);
 
 }  // namespace wellspaced

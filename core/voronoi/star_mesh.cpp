@@ -111,6 +111,13 @@ Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
           static_cast<double>(static_cast<std::int32_t>(at_[j].y - at_[i].y)) * scale_.y};
 }
 
+FixedPoint StarMesh::moved(std::size_t i, Vec2 by) const {
+  const auto steps = [](double length, double scale) {
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(length / scale));
+  };
+  return {at_[i].x + steps(by.x, scale_.x), at_[i].y + steps(by.y, scale_.y)};
+}
+
 PointSet StarMesh::places_as_points(const std::shared_ptr<const Domain>& domain) const {
   PointSet points{domain, {}};
   points.coordinates.reserve(2 * size());
@@ -179,6 +186,29 @@ bool StarMesh::is_mutual() const {
     }
   }
   return true;
+}
+
+bool StarMesh::is_positive() const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Star& star = stars_[i];
+    Vec2 a = offset(i, star.neighbor[star.degree - 1]);
+    for (int k = 0; k < star.degree; ++k) {
+      const Vec2 b = offset(i, star.neighbor[k]);
+      if (!(cross(a, b) > 0)) return false;
+      a = b;
+    }
+  }
+  return true;
+}
+
+void StarMesh::rebuild(const PointSet& input, const Control& control) {
+  Snapshot before = snapshot();
+  try {
+    build_stars(input, control);
+  } catch (const Error&) {
+    restore(before);
+    throw;
+  }
 }
 
 // ---- flips

@@ -64,6 +64,14 @@ class StarMesh {
   Vec2 offset(std::size_t i, std::size_t j) const;
 
   void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
+  /// Where point i comes to stand if it moves by `by` (in units of d_hex).
+  FixedPoint moved(std::size_t i, Vec2 by) const;
+
+  /// Whether all triangles are counter-clockwise, as they may not be after many points moved at once.
+  bool is_positive() const;
+  /// Triangulates the present places anew. Errors: degenerate_input, cancelled, deadline_exceeded; places and
+  /// stars are then what they were.
+  void rebuild(const PointSet& input, const Control& control);
 
   /// An edge that may have ceased to be Delaunay; `legalize` looks at all that were suspected.
   void suspect(std::uint32_t a, std::uint32_t b) { suspects_.push_back({a, b}); }
