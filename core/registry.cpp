@@ -9,6 +9,7 @@
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
 #include "core/generate/white_noise.h"
+#include "core/optimize/cvt.h"
 #include "core/optimize/opt_beta.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/push_pull.h"
@@ -248,6 +249,40 @@ std::vector<Parameter> push_pull_parameters() {
           max_sweeps("1000")};
 }
 
+Parameter tolerance(const std::string& fallback) {
+  return {"tolerance",
+          Parameter::Type::number,
+          "It is over when no point moved farther in a sweep, in units of d_hex, the spacing of the "
+          "triangular lattice with as many points",
+          "",
+          0,
+          1,
+          false,
+          false,
+          fallback};
+}
+
+CvtOptions cvt_options(const Arguments& a) {
+  CvtOptions options;
+  if (argument(a, "variant") == 0.0) options.variant = CvtOptions::Variant::lloyd;
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
+  return options;
+}
+
+Parameter cvt_variant() {
+  Parameter p;
+  p.name = "variant";
+  p.type = Parameter::Type::choice;
+  p.description =
+      "lloyd moves all points to the centroids of their cells in each sweep; accelerated is a quasi-Newton "
+      "method that needs a fraction of the sweeps";
+  p.choices = {"lloyd", "accelerated"};
+  p.maximum = 1;
+  p.fallback = "\"accelerated\"";
+  return p;
+}
+
 const std::vector<Optimizer> optimizer_rows = {
     {{"opt-beta-local",
       "Opt-beta^i",
@@ -296,6 +331,21 @@ const std::vector<Optimizer> optimizer_rows = {
        const PushPullOptions options = push_pull_options(a);
        return options.area_sd ? Cost{0.2e-6 * options.max_sweeps + 30e-6, 250}
                               : Cost{0.04e-6 * options.max_sweeps + 24e-6, 250};
+     }},
+    {{"cvt",
+      "Centroidal Voronoi tessellation",
+      "Moves points to the centroids of their Voronoi cells, which lowers the mean squared distance to the "
+      "nearest point; takes 20 points or more that are spread over their domain.",
+      "Lloyd 1982; Liu et al., On Centroidal Voronoi Tessellation - Energy Smoothness and Fast Computation, "
+      "2009",
+      {cvt_variant(), max_sweeps("100"), tolerance("0.0001")}},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return cvt(points, cvt_options(a), control);
+     },
+     [](const Arguments& a) {
+       const CvtOptions options = cvt_options(a);
+       const bool lloyd = options.variant == CvtOptions::Variant::lloyd;
+       return Cost{(lloyd ? 0.4e-6 : 1e-6) * options.max_sweeps + 12e-6, lloyd ? 250.0 : 700.0};
      }},
 };
 
