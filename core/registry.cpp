@@ -10,6 +10,7 @@
 #include "core/generate/poisson_disk.h"
 #include "core/generate/white_noise.h"
 #include "core/optimize/cvt.h"
+#include "core/optimize/distmesh.h"
 #include "core/optimize/opt_beta.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/push_pull.h"
@@ -270,6 +271,13 @@ CvtOptions cvt_options(const Arguments& a) {
   return options;
 }
 
+DistMeshOptions distmesh_options(const Arguments& a) {
+  DistMeshOptions options;
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
+  return options;
+}
+
 Parameter cvt_variant() {
   Parameter p;
   p.name = "variant";
@@ -346,6 +354,18 @@ const std::vector<Optimizer> optimizer_rows = {
        const CvtOptions options = cvt_options(a);
        const bool lloyd = options.variant == CvtOptions::Variant::lloyd;
        return Cost{(lloyd ? 0.4e-6 : 1e-6) * options.max_sweeps + 12e-6, lloyd ? 250.0 : 700.0};
+     }},
+    {{"distmesh",
+      "DistMesh",
+      "Edges of the triangulation as springs that only push; takes 20 points or more that are spread over "
+      "their domain.",
+      "Persson and Strang, A Simple Mesh Generator in MATLAB, 2004",
+      {max_sweeps("100"), tolerance("0.001")}},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return distmesh(points, distmesh_options(a), control);
+     },
+     [](const Arguments& a) {
+       return Cost{0.4e-6 * distmesh_options(a).max_sweeps + 12e-6, 250};
      }},
 };
 

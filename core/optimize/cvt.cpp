@@ -6,22 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
 #include "core/optimize/best_state.h"
 #include "core/optimize/lbfgs.h"
 #include "core/optimize/move_all.h"
+#include "core/optimize/require.h"
 #include "core/voronoi/star_cell.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
 namespace {
-
-void require_options(const CvtOptions& o) {
-  if (o.max_sweeps < 1)
-    throw Error(ErrorCode::invalid_parameters, "at least one sweep is needed", "/max_sweeps");
-  if (!(o.tolerance >= 0 && std::isfinite(o.tolerance)))
-    throw Error(ErrorCode::invalid_parameters, "the tolerance must be a number of at least 0", "/tolerance");
-}
 
 /// All cells of a state.
 struct Cells {
@@ -165,7 +158,8 @@ class Relaxation {
 }  // namespace
 
 OptimizeResult cvt(const PointSet& input, const CvtOptions& options, Control& control) {
-  require_options(options);
+  require_sweeps(options.max_sweeps);
+  require_tolerance(options.tolerance);
   return Relaxation(input, options, control).run();
 }
 

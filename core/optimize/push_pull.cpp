@@ -11,6 +11,7 @@
 #include "core/optimize/calm.h"
 #include "core/optimize/capacity_step.h"
 #include "core/optimize/push_pull_step.h"
+#include "core/optimize/require.h"
 #include "core/voronoi/cell.h"
 #include "core/voronoi/star_mesh.h"
 #include "core/voronoi/stars.h"
@@ -36,8 +37,7 @@ void require_options(const PushPullOptions& o) {
     throw Error(ErrorCode::invalid_parameters, "coverage must be a number of at least 0.57735", "/coverage");
   if (o.area_sd && !(*o.area_sd > 0))
     throw Error(ErrorCode::invalid_parameters, "area_sd must be positive", "/area_sd");
-  if (o.max_sweeps < 1)
-    throw Error(ErrorCode::invalid_parameters, "at least one sweep is needed", "/max_sweeps");
+  require_sweeps(o.max_sweeps);
 }
 
 /// What the targets are held against, in units of d_hex and of the mean area; from the points alone.
