@@ -11,6 +11,7 @@
 #include "core/generate/white_noise.h"
 #include "core/optimize/cvt.h"
 #include "core/optimize/distmesh.h"
+#include "core/optimize/far_point.h"
 #include "core/optimize/opt_beta.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/push_pull.h"
@@ -278,6 +279,13 @@ DistMeshOptions distmesh_options(const Arguments& a) {
   return options;
 }
 
+FarPointOptions far_point_options(const Arguments& a) {
+  FarPointOptions options;
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
+  return options;
+}
+
 Parameter cvt_variant() {
   Parameter p;
   p.name = "variant";
@@ -366,6 +374,23 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{0.4e-6 * distmesh_options(a).max_sweeps + 12e-6, 250};
+     }},
+    {{"far-point",
+      "Farthest-point optimization",
+      "Takes out each point in turn and puts it where the others are farthest, which raises r_f; takes 20 "
+      "points or more that are spread over their domain.",
+      "Schloemer et al., Farthest-Point Optimized Point Sets with Maximized Minimum Distance, 2011",
+      {max_sweeps("100"),
+       {"tolerance", Parameter::Type::number,
+        "It is over when the mean distance to the nearest point grew by less in a sweep, in units of d_hex, "
+        "the "
+        "spacing of the triangular lattice with as many points",
+        "", 0, 1, false, false, "0.00001"}}},
+     [](const PointSet& points, const Arguments& a, Control& control) {
+       return far_point(points, far_point_options(a), control);
+     },
+     [](const Arguments& a) {
+       return Cost{6e-6 * far_point_options(a).max_sweeps + 12e-6, 250};
      }},
 };
 

@@ -8,9 +8,26 @@
 namespace wellspaced {
 
 BestState::BestState(const PointSet& input, StarMesh& mesh, Control& control)
-    : input_(input), mesh_(mesh), control_(control) {}
+    : input_(input), mesh_(mesh), control_(control) {
+  constexpr double points_across = 12;
+  const Box box = input.domain->box();
+  narrow_ = std::min(box.size.x, box.size.y) < points_across * mesh.spacing();
+}
+
+void BestState::record(int sweep, double fraction) {
+  note(sweep, fraction, narrow_ ? measure_apart() : mesh_.measure());
+}
 
 void BestState::record(int sweep, double fraction, MeshRadii radii) {
+  note(sweep, fraction, narrow_ ? measure_apart() : radii);
+}
+
+MeshRadii BestState::measure_apart() const {
+  const GlobalRatio ratio = measure_ratio(mesh_.points(input_), control_);
+  return {ratio.r_f / mesh_.spacing(), ratio.r_c / mesh_.spacing()};
+}
+
+void BestState::note(int sweep, double fraction, MeshRadii radii) {
   const double d = mesh_.spacing(), beta = radii.outermost / radii.shortest;
   history_.push_back({sweep, beta, radii.outermost * d, radii.shortest * d});
   if (beta < best_beta_) keep(sweep, beta);

@@ -18,7 +18,7 @@ class BestState {
   BestState(const PointSet& input, StarMesh& mesh, Control& control);
 
   /// Notes the mesh as it is after `sweep`, and reports it together with the fraction of work done.
-  void record(int sweep, double fraction) { record(sweep, fraction, mesh_.measure()); }
+  void record(int sweep, double fraction);
   /// The same where its radii are known already.
   void record(int sweep, double fraction, MeshRadii radii);
 
@@ -30,11 +30,14 @@ class BestState {
   OptimizeResult result();
 
  private:
+  void note(int sweep, double fraction, MeshRadii radii);
+  MeshRadii measure_apart() const;
   void keep(int sweep, double beta);
 
   const PointSet& input_;
   StarMesh& mesh_;
   Control& control_;
+  bool narrow_;  // so few points across that the mesh may lack edges that reach around the torus
   std::vector<FixedPoint> best_;
   int best_sweep_ = 0;
   double best_beta_ = std::numeric_limits<double>::infinity();

@@ -213,6 +213,11 @@ void StarMesh::rebuild(const PointSet& input, const Control& control) {
 
 // ---- flips
 
+/// Whether an edge can be told from its images: less than half around the torus.
+bool StarMesh::is_short_way(Vec2 edge) const {
+  return std::abs(edge.x) < turn / 2 * scale_.x && std::abs(edge.y) < turn / 2 * scale_.y;
+}
+
 bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b) {
   Star& star = stars_[a];
   const int k = star.find(b);
@@ -228,6 +233,16 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b) {
   if (star.degree <= 3 || stars_[b].degree <= 3) return false;
   if (!(cross(to_right, to_left) > 0)) return false;  // the quadrilateral is not convex
   if (!(cross(to_right - to_b, to_left - to_b) < 0)) return false;
+  if (!is_short_way(to_left - to_right)) return false;
+  flip(a, k);
+  return true;
+}
+
+/// Replaces the edge from a to its neighbor k by the other diagonal.
+void StarMesh::flip(std::uint32_t a, int k) {
+  Star& star = stars_[a];
+  const std::uint32_t b = star.neighbor[k], left = star.neighbor[star.after(k)],
+                      right = star.neighbor[star.before(k)];
   star.erase(k);
   stars_[b].erase(stars_[b].find(a));
   stars_[left].insert_after(stars_[left].find(a), right);
@@ -238,7 +253,6 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b) {
   suspect(a, right);
   suspect(b, left);
   suspect(b, right);
-  return true;
 }
 
 std::size_t StarMesh::legalize() {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -81,6 +83,18 @@ class StarMesh {
   std::size_t legalize_all(const Control& control);
   std::size_t flips() const { return flips_; }  ///< since the beginning
 
+  /// Takes point i out of the triangulation, whose star is empty from then on; nothing but `insert` may be
+  /// done with it. False, and nothing has changed, where the hole can't be filled: a point would have more
+  /// than 15 neighbors or fewer than 3, or an edge would reach around the torus. Cost: O(degree^3).
+  bool remove(std::size_t i);
+  /// Puts point i, which was taken out, back at a place; `near` is a point in the triangulation from where
+  /// the way to it is searched. False, and nothing has changed, if a corner of the triangle there has 15
+  /// neighbors.
+  bool insert(std::size_t i, FixedPoint place, std::size_t near);
+  /// Whether the triangles of point i are Delaunay, as after `insert` they may not be where edges would have
+  /// to reach around the torus.
+  bool is_delaunay_at(std::size_t i) const;
+
   /// Marks are one bit a point, for whoever sweeps over them.
   void mark(std::size_t i) { marks_[i / 64] |= std::uint64_t{1} << (i % 64); }
   void mark_all();
@@ -110,6 +124,11 @@ class StarMesh {
   void collect_stars(const PointSet& points, const Control& control);
   bool is_mutual() const;
   bool try_flip(std::uint32_t a, std::uint32_t b);
+  void flip(std::uint32_t a, int k);
+  bool is_short_way(Vec2 edge) const;
+  Vec2 way(std::size_t i, FixedPoint place) const;
+  std::size_t nearest(FixedPoint place, std::size_t from) const;
+  std::optional<std::array<std::uint32_t, 3>> triangle_at(FixedPoint place, std::size_t near) const;
 
   double spacing_ = 0, width_ = 0, height_ = 0;
   Vec2 scale_;
