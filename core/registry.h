@@ -32,6 +32,7 @@ struct Parameter {
   bool density = false;  ///< exactly one of a method's density parameters must be given
   std::string infeasible_below =
       "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
+  std::string infeasible_above = "";      ///< the same for a value above the maximum
   std::vector<std::string> choices = {};  ///< the names of a choice; its fallback is one of them, in quotes
 };
 

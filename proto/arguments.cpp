@@ -31,8 +31,9 @@ double read_value(const Parameter& p, const nlohmann::json& value, const std::st
   const double x = value.get<double>();
   const bool too_low = p.exclusive_minimum ? !(x > p.minimum) : !(x >= p.minimum);
   const bool too_high = p.exclusive_maximum ? !(x < p.maximum) : !(x <= p.maximum);
-  if (too_low && !p.infeasible_below.empty())
-    throw Error(ErrorCode::infeasible, p.infeasible_below + "; found " + number_text(x), where);
+  const std::string& infeasible = too_low ? p.infeasible_below : p.infeasible_above;
+  if ((too_low || too_high) && !infeasible.empty())
+    throw Error(ErrorCode::infeasible, infeasible + "; found " + number_text(x), where);
   if (too_low || too_high || (whole && x != std::floor(x)))
     throw Error(ErrorCode::invalid_parameters,
                 std::string("must be a ") + (whole ? "whole " : "") + "number " +

@@ -11,6 +11,7 @@
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
+#include "core/optimize/calm.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/voronoi/star_mesh.h"
@@ -108,48 +109,22 @@ class Descent {
     Calm calm;
     mesh_.mark_all();
     for (int sweep = 1;; ++sweep) {
-      const std::size_t moves = sweep_once(targets);
+      const SweepCounts count = push_pull_sweep(mesh_, targets, control_);
+      visits_ += static_cast<double>(count.visits);
+      flips_ += static_cast<double>(count.flips);
       ++sweeps_;
       if (!mesh_.any_marked()) {
         flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
       }
       if (std::has_single_bit(static_cast<unsigned>(sweep)) || sweep % 64 == 0) record();
-      if (allowance.escalate && calm.lasts(moves, mesh_.size())) {
+      if (allowance.escalate && calm.lasts(count.moves, mesh_.size())) {
         targets.push = std::min(1.6, targets.push * 1.08);
         targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
       }
       if (visits_ - visits_before > allowance.visits || visits_ > budget_) return false;
       if (flips_ - flips_before > allowance.flips) return false;
     }
-  }
-
-  /// Frozen: 150 sweeps in which the number of moves made no new 5% low while more than .5% still move.
-  class Calm {
-   public:
-    bool lasts(std::size_t moves, std::size_t n) {
-      const auto m = static_cast<double>(moves);
-      if (m < .95 * fewest_) {
-        fewest_ = m;
-        sweeps_ = 0;
-        return false;
-      }
-      if (++sweeps_ < 150 || m <= .005 * static_cast<double>(n)) return false;
-      fewest_ = m;
-      sweeps_ = 0;
-      return true;
-    }
-
-   private:
-    double fewest_ = std::numeric_limits<double>::infinity();
-    int sweeps_ = 0;
-  };
-
-  std::size_t sweep_once(const PushPull& targets) {
-    const SweepCounts counts = push_pull_sweep(mesh_, targets, control_);
-    visits_ += static_cast<double>(counts.visits);
-    flips_ += static_cast<double>(counts.flips);
-    return counts.moves;
   }
 
   /// Below what can be reached at once: small steps, each from the last state that was clean.

@@ -249,6 +249,7 @@ namespace {
 
 HWY_EXPORT(sweep_strip);
 HWY_EXPORT(finish_sweep);
+HWY_EXPORT(visit);
 
 /// Threads cost more than they bring when few points are marked.
 unsigned threads_for(const StarMesh& mesh, const Control& control) {
@@ -287,6 +288,11 @@ SweepCounts push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Contr
   all.moves += rest.counts.moves;
   all.flips += rest.suspects.flips;
   return all;
+}
+
+bool push_pull_step(StarMesh& mesh, std::size_t i, const PushPull& targets) {
+  Suspects suspects{mesh.everywhere()};
+  return HWY_DYNAMIC_DISPATCH(visit)(mesh, i, targets, suspects);
 }
 
 }  // namespace wellspaced

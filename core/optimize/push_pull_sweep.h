@@ -35,4 +35,7 @@ struct SweepCounts {
 /// absolute radii.
 SweepCounts push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Control& control);
 
+/// The same for one point. Returns whether it moved.
+bool push_pull_step(StarMesh& mesh, std::size_t i, const PushPull& targets);
+
 }  // namespace wellspaced

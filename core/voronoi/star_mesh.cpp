@@ -55,9 +55,17 @@ Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
           static_cast<double>(static_cast<std::int32_t>(at_[j].y - at_[i].y)) * scale_.y};
 }
 
+FixedPoint StarMesh::moved(std::size_t i, Vec2 by) const {
+  const auto steps = [](double length, double scale) {
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(length / scale));
+  };
+  return {at_[i].x + steps(by.x, scale_.x), at_[i].y + steps(by.y, scale_.y)};
+}
+
+// Cocircular neighbors have no one triangulation: points are nudged, by far less than any target's margin.
+constexpr double nudges[] = {0, 1e-7, 1e-6, 1e-5};
+
 void StarMesh::build_stars(const PointSet& input, const Control& control) {
-  // Cocircular neighbors have no one triangulation: they are nudged, by far less than any target's margin.
-  constexpr double nudges[] = {0, 1e-7, 1e-6, 1e-5};
   std::vector<FixedPoint> exact(input.size());
   for (std::size_t i = 0; i < input.size(); ++i)
     exact[i] = {to_fixed(input[i].x, width_), to_fixed(input[i].y, height_)};
@@ -71,20 +79,51 @@ void StarMesh::build_stars(const PointSet& input, const Control& control) {
 /// Sets places and stars.
 void StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
                                    const std::shared_ptr<const Domain>& domain, const Control& control) {
-  PointSet rounded{domain, {}};
-  rounded.coordinates.reserve(2 * points.size());
-  for (const FixedPoint& p : points) rounded.push_back({to_length(p.x, width_), to_length(p.y, height_), 0});
-  GridOrder order = grid_order(rounded, wrap_cell * spacing_, control);
+  GridOrder order = grid_order(to_points(points, domain), wrap_cell * spacing_, control);
   original_ = std::move(order.original);
   at_.resize(points.size());
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = points[original_[k]];
   cut_strips(order);
-  if (auto wrapped = wrap_stars(order, control)) {
+  if (auto wrapped = wrap_stars(order, control))
     stars_ = std::move(*wrapped);
-    return;
+  else
+    collect_stars(to_points(at_, domain), control);
+}
+
+void StarMesh::rebuild(const PointSet& input, const Control& control) {
+  Snapshot before = snapshot();
+  try {
+    for (const double nudge : nudges) {
+      at_ = nudge > 0 ? shaken(before.at, nudge) : before.at;
+      triangulate_places(input.domain, control);
+      if (is_mutual()) return;
+    }
+    refuse("the points have no clear Delaunay triangulation");
+  } catch (const Error&) {
+    restore(before);
+    throw;
   }
-  for (std::size_t k = 0; k < at_.size(); ++k) rounded.set(k, {order.x[k], order.y[k], 0});
-  collect_stars(rounded, control);
+}
+
+/// Sets the stars of places that have left their grid order.
+void StarMesh::triangulate_places(const std::shared_ptr<const Domain>& domain, const Control& control) {
+  const PointSet points = to_points(at_, domain);
+  const GridOrder order = grid_order(points, wrap_cell * spacing_, control);
+  const auto wrapped = wrap_stars(order, control);
+  if (!wrapped) return collect_stars(points, control);
+  for (std::size_t p = 0; p < wrapped->size(); ++p) {
+    Star star = (*wrapped)[p];
+    for (std::uint32_t& neighbor : star.neighbor) neighbor = order.original[neighbor];
+    stars_[order.original[p]] = star;
+  }
+}
+
+PointSet StarMesh::to_points(const std::vector<FixedPoint>& places,
+                             const std::shared_ptr<const Domain>& domain) const {
+  PointSet points{domain, {}};
+  points.coordinates.reserve(2 * places.size());
+  for (const FixedPoint& p : places) points.push_back({to_length(p.x, width_), to_length(p.y, height_), 0});
+  return points;
 }
 
 std::optional<std::string> StarMesh::why_too_small(const Domain& domain, std::size_t n) {
@@ -178,7 +217,25 @@ bool StarMesh::is_mutual() const {
   return true;
 }
 
+bool StarMesh::is_positive() const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Star& star = stars_[i];
+    Vec2 a = offset(i, star.neighbor[star.degree - 1]);
+    for (int k = 0; k < star.degree; ++k) {
+      const Vec2 b = offset(i, star.neighbor[k]);
+      if (!(cross(a, b) > 0)) return false;
+      a = b;
+    }
+  }
+  return true;
+}
+
 // ---- flips
+
+/// Whether an edge can be told from its images: less than half around the torus.
+bool StarMesh::is_short_way(Vec2 edge) const {
+  return std::abs(edge.x) < turn / 2 * scale_.x && std::abs(edge.y) < turn / 2 * scale_.y;
+}
 
 bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
   Star& star = stars_[a];
@@ -200,6 +257,16 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
   if (star.degree <= 3 || stars_[b].degree <= 3) return false;
   if (!(cross(to_right, to_left) > 0)) return false;  // the quadrilateral is not convex
   if (!(cross(to_right - to_b, to_left - to_b) < 0)) return false;
+  if (!is_short_way(to_left - to_right)) return false;
+  flip(a, k, suspects);
+  return true;
+}
+
+/// Replaces the edge from a to its neighbor k by the other diagonal.
+void StarMesh::flip(std::uint32_t a, int k, Suspects& suspects) {
+  Star& star = stars_[a];
+  const std::uint32_t b = star.neighbor[k], left = star.neighbor[star.after(k)],
+                      right = star.neighbor[star.before(k)];
   star.erase(k);
   stars_[b].erase(stars_[b].find(a));
   stars_[left].insert_after(stars_[left].find(a), right);
@@ -210,7 +277,6 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
   suspects.add(a, right);
   suspects.add(b, left);
   suspects.add(b, right);
-  return true;
 }
 
 std::size_t StarMesh::legalize(Suspects& suspects) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -85,6 +86,14 @@ class StarMesh {
   Vec2 offset(std::size_t i, std::size_t j) const;
 
   void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
+  /// Where point i comes to stand if it moves by `by` (in units of d_hex).
+  FixedPoint moved(std::size_t i, Vec2 by) const;
+
+  /// Whether all triangles are counter-clockwise, as they may not be after many points moved at once.
+  bool is_positive() const;
+  /// Triangulates the present places anew. Errors: degenerate_input, cancelled, deadline_exceeded; places and
+  /// stars are then what they were.
+  void rebuild(const PointSet& input, const Control& control);
 
   /// Flips until no suspected edge, nor any edge around a flip, is illegal, but for those put off. Marks the
   /// corners of what was flipped. Number of flips.
@@ -96,6 +105,18 @@ class StarMesh {
   /// other. Strips reach at least 3 d_hex across and their territories as far beyond; one strip where there
   /// is no room for more.
   const std::vector<Strip>& strips() const { return strips_; }
+
+  /// Takes point i out of the triangulation, whose star is empty from then on; nothing but `insert` may be
+  /// done with it. False, and nothing has changed, where the hole can't be filled: a point would have more
+  /// than 15 neighbors or fewer than 3, or an edge would reach around the torus. Cost: O(degree^3).
+  bool remove(std::size_t i);
+  /// Puts point i, which was taken out, back at a place; `near` is a point in the triangulation from where
+  /// the way to it is searched. False, and nothing has changed, if a corner of the triangle there has 15
+  /// neighbors.
+  bool insert(std::size_t i, FixedPoint place, std::size_t near);
+  /// Whether the triangles of point i are Delaunay, as after `insert` they may not be where edges would have
+  /// to reach around the torus.
+  bool is_delaunay_at(std::size_t i) const;
 
   /// Marks are one bit a point, for whoever sweeps over them.
   void mark(std::size_t i) { marks_[i / 64] |= std::uint64_t{1} << (i % 64); }
@@ -126,8 +147,16 @@ class StarMesh {
   std::vector<FixedPoint> shaken(std::vector<FixedPoint> points, double amount) const;
   void collect_stars(const PointSet& points, const Control& control);
   bool is_mutual() const;
+  void triangulate_places(const std::shared_ptr<const Domain>& domain, const Control& control);
+  PointSet to_points(const std::vector<FixedPoint>& places,
+                     const std::shared_ptr<const Domain>& domain) const;
   void cut_strips(const GridOrder& order);
   bool try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects);
+  void flip(std::uint32_t a, int k, Suspects& suspects);
+  bool is_short_way(Vec2 edge) const;
+  Vec2 way(std::size_t i, FixedPoint place) const;
+  std::size_t nearest(FixedPoint place, std::size_t from) const;
+  std::optional<std::array<std::uint32_t, 3>> triangle_at(FixedPoint place, std::size_t near) const;
 
   double spacing_ = 0, width_ = 0, height_ = 0;
   Vec2 scale_;

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/analyze/spacing.h"
-#include "core/generate/generate.h"
 #include "core/generate/lattice.h"
-#include "core/generate/poisson_disk.h"
+#include "tests/support/mesh.h"
+#include "tests/support/optimizing.h"
 #include "tests/support/oracle.h"
 
 namespace wellspaced {
@@ -17,33 +17,10 @@ namespace {
 
 using testing::expect_delaunay;
 using testing::expect_error;
+using testing::mps;
+using testing::places;
 using testing::random_points;
-
-PointSet mps(std::uint64_t count, std::uint64_t seed, double height = 1) {
-  Rng rng(seed);
-  Control control;
-  return poisson_disk(std::make_shared<Torus>(1, height), {poisson_disk_radius(height, count)}, rng, control);
-}
-
-/// The mesh's stars by the points' own numbers and in domain lengths, as the oracle wants them.
-std::vector<std::vector<Spoke>> stars_of(const StarMesh& mesh) {
-  std::vector<std::vector<Spoke>> stars(mesh.size());
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    for (int k = 0; k < mesh.star(i).degree; ++k) {
-      const std::uint32_t j = mesh.star(i).neighbor[k];
-      stars[mesh.original(i)].push_back({mesh.spacing() * mesh.offset(i, j), mesh.original(j)});
-    }
-  return stars;
-}
-
-/// The places themselves, also of points that did not move.
-PointSet places(const StarMesh& mesh, const PointSet& input) {
-  PointSet out = input;
-  const Box box = input.domain->box();
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    out.set(mesh.original(i), {mesh.at(i).x * 0x1p-32 * box.size.x, mesh.at(i).y * 0x1p-32 * box.size.y, 0});
-  return out;
-}
+using testing::stars_of;
 
 TEST(StarMesh, IsDelaunayFromTheStart) {
   for (const PointSet& input : {mps(500, 1), mps(300, 2, 3), mps(400, 3, 0.2), random_points(1, 1, 300, 4)}) {
