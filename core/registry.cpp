@@ -345,8 +345,7 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        const PushPullOptions options = push_pull_options(a);
-       return options.area_sd ? Cost{0.2e-6 * options.max_sweeps + 30e-6, 250}
-                              : Cost{0.04e-6 * options.max_sweeps + 24e-6, 250};
+       return Cost{(options.area_sd ? 1.2e-6 : 0.25e-6) * options.max_sweeps + 12e-6, 250};
      }},
     {{"cvt",
       "Centroidal Voronoi tessellation",
