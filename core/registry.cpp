@@ -264,25 +264,17 @@ Parameter tolerance(const std::string& fallback) {
           fallback};
 }
 
+template <class Options>
+Options sweeps_and_tolerance(const Arguments& a) {
+  Options options;
+  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
+  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
+  return options;
+}
+
 CvtOptions cvt_options(const Arguments& a) {
-  CvtOptions options;
+  auto options = sweeps_and_tolerance<CvtOptions>(a);
   if (argument(a, "variant") == 0.0) options.variant = CvtOptions::Variant::lloyd;
-  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
-  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
-  return options;
-}
-
-DistMeshOptions distmesh_options(const Arguments& a) {
-  DistMeshOptions options;
-  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
-  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
-  return options;
-}
-
-FarPointOptions far_point_options(const Arguments& a) {
-  FarPointOptions options;
-  options.max_sweeps = static_cast<int>(argument(a, "max_sweeps").value_or(options.max_sweeps));
-  options.tolerance = argument(a, "tolerance").value_or(options.tolerance);
   return options;
 }
 
@@ -346,8 +338,7 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        const PushPullOptions options = push_pull_options(a);
-       return options.area_sd ? Cost{0.2e-6 * options.max_sweeps + 30e-6, 250}
-                              : Cost{0.04e-6 * options.max_sweeps + 24e-6, 250};
+       return Cost{(options.area_sd ? 1.2e-6 : 0.25e-6) * options.max_sweeps + 12e-6, 250};
      }},
     {{"cvt",
       "Centroidal Voronoi tessellation",
@@ -371,10 +362,10 @@ const std::vector<Optimizer> optimizer_rows = {
       "Persson and Strang, A Simple Mesh Generator in MATLAB, 2004",
       {max_sweeps("100"), tolerance("0.001")}},
      [](const PointSet& points, const Arguments& a, Control& control) {
-       return distmesh(points, distmesh_options(a), control);
+       return distmesh(points, sweeps_and_tolerance<DistMeshOptions>(a), control);
      },
      [](const Arguments& a) {
-       return Cost{0.4e-6 * distmesh_options(a).max_sweeps + 12e-6, 250};
+       return Cost{0.4e-6 * sweeps_and_tolerance<DistMeshOptions>(a).max_sweeps + 12e-6, 250};
      }},
     {{"far-point",
       "Farthest-point optimization",
@@ -384,14 +375,13 @@ const std::vector<Optimizer> optimizer_rows = {
       {max_sweeps("100"),
        {"tolerance", Parameter::Type::number,
         "It is over when the mean distance to the nearest point grew by less in a sweep, in units of d_hex, "
-        "the "
-        "spacing of the triangular lattice with as many points",
+        "the spacing of the triangular lattice with as many points",
         "", 0, 1, false, false, "0.00001"}}},
      [](const PointSet& points, const Arguments& a, Control& control) {
-       return far_point(points, far_point_options(a), control);
+       return far_point(points, sweeps_and_tolerance<FarPointOptions>(a), control);
      },
      [](const Arguments& a) {
-       return Cost{6e-6 * far_point_options(a).max_sweeps + 12e-6, 250};
+       return Cost{6e-6 * sweeps_and_tolerance<FarPointOptions>(a).max_sweeps + 12e-6, 250};
      }},
 };
 

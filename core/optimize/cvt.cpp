@@ -93,7 +93,7 @@ class Relaxation {
   double sweep_accelerated() {
     const std::vector<Vec2> gradient = cells_.gradient();
     for (;;) {
-      std::vector<Vec2> direction = lbfgs_.direction(gradient, cells_.inverse_diagonal());
+      std::vector<Vec2> direction = lbfgs_.direction(gradient, cells_.inverse_diagonal(), control_);
       cap(direction);
       const double part = descend(direction, dot(gradient, direction));
       if (part > 0) {

@@ -26,11 +26,13 @@ void Lbfgs::remember(std::vector<Vec2> s, std::vector<Vec2> y) {
   pairs_.push_back({std::move(s), std::move(y), sy});
 }
 
-std::vector<Vec2> Lbfgs::direction(std::span<const Vec2> gradient, std::span<const double> diagonal) const {
+std::vector<Vec2> Lbfgs::direction(std::span<const Vec2> gradient, std::span<const double> diagonal,
+                                   const Control& control) const {
   std::vector<Vec2> d(gradient.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = -1 * gradient[i];
   std::vector<double> weight(pairs_.size());
   for (std::size_t k = pairs_.size(); k-- > 0;) {
+    control.check();
     weight[k] = dot(pairs_[k].s, d) / pairs_[k].sy;
     add(d, -weight[k], pairs_[k].y);
   }
@@ -42,8 +44,10 @@ std::vector<Vec2> Lbfgs::direction(std::span<const Vec2> gradient, std::span<con
     scale = last.sy / ydy;
   }
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = (scale * diagonal[i]) * d[i];
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    control.check();
     add(d, weight[k] - dot(pairs_[k].y, d) / pairs_[k].sy, pairs_[k].s);
+  }
   return d;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/control.h"
 #include "core/vec.h"
 
 namespace wellspaced {
@@ -21,8 +22,10 @@ class Lbfgs {
   void forget() { pairs_.clear(); }
   bool remembers() const { return !pairs_.empty(); }
 
-  /// `diagonal`: an approximate inverse of the Hessian, one positive number a point.
-  std::vector<Vec2> direction(std::span<const Vec2> gradient, std::span<const double> diagonal) const;
+  /// Errors: cancelled, deadline_exceeded. `diagonal`: an approximate inverse of the Hessian, one positive
+  /// number a point.
+  std::vector<Vec2> direction(std::span<const Vec2> gradient, std::span<const double> diagonal,
+                              const Control& control) const;
 
  private:
   static constexpr std::size_t memory = 7;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@
 namespace wellspaced {
 namespace {
 
+constexpr std::size_t between_checks = 4096;
 constexpr double tight = 1e-5;  // targets are tested in float: aim at a little more
 
 void require_options(const PushPullOptions& o) {
@@ -74,6 +76,15 @@ Measured measure(const PointSet& points, const Control& control) {
   return {all.r_f / d, all.r_c / d, all.area_deviation};
 }
 
+/// Targets so loose that holding them may make beta worse than it was are tightened: rho as far as is easy,
+/// then coverage.
+PushPullOptions tightened(PushPullOptions o, double beta) {
+  constexpr double easy_rho = .82;
+  o.rho = std::max(o.rho, std::min(easy_rho, o.coverage / beta));
+  o.coverage = std::min(o.coverage, std::max(o.rho * beta, 1 / std::sqrt(3.0)));
+  return o;
+}
+
 PushPull targets_of(const PushPullOptions& o) {
   PushPull targets;
   targets.r_f = o.rho * (1 + tight);
@@ -94,63 +105,84 @@ class Relaxation {
   }
 
   OptimizeResult run() {
-    PushPull targets = targets_of(options_);
+    const std::optional<PushPullOptions> easier = within_reach();
+    if ((!easier || relax(*easier)) && relax(options_)) best_.prefer_last();
+    return best_.result();
+  }
+
+ private:
+  /// Targets that are hard or out of reach make points wander; a state that is known to be reached comes
+  /// first, so that something is won in any case.
+  std::optional<PushPullOptions> within_reach() const {
+    constexpr double largest_rho = .9, least_coverage = .62, least_area_sd = .03;
+    PushPullOptions easier = options_;
+    easier.rho = std::min(options_.rho, largest_rho);
+    easier.coverage = std::max(options_.coverage, least_coverage);
+    const bool hard_areas = options_.area_sd && *options_.area_sd < least_area_sd;
+    if (easier.rho == options_.rho && easier.coverage == options_.coverage && !hard_areas) return {};
+    easier.area_sd.reset();
+    return easier;
+  }
+
+  /// Whether all targets hold in the end.
+  bool relax(const PushPullOptions& aims) {
+    PushPull targets = targets_of(aims);
     Calm calm;
     mesh_.mark_all();
-    for (int sweep = 1; sweep <= options_.max_sweeps; ++sweep) {
-      const SweepCounts count =
-          options_.area_sd ? sweep_with_areas(targets) : push_pull_sweep(mesh_, targets, control_);
-      const bool clean = !mesh_.any_marked() && is_clean();
-      if (clean || std::has_single_bit(static_cast<unsigned>(sweep)) || sweep % 64 == 0 ||
-          sweep == options_.max_sweeps)
-        record(sweep);
-      if (clean) {
-        best_.prefer_last();
-        break;
-      }
+    while (sweeps_ < options_.max_sweeps) {
+      const SweepCounts count = aims.area_sd ? sweep_with_areas(targets, area_target(aims))
+                                             : push_pull_sweep(mesh_, targets, control_);
+      ++sweeps_;
+      const bool clean = !mesh_.any_marked() && is_clean(aims);
+      if (clean || std::has_single_bit(static_cast<unsigned>(sweeps_)) || sweeps_ % 64 == 0 ||
+          sweeps_ == options_.max_sweeps)
+        record();
+      if (clean) return true;
       if (calm.lasts(count.moves, mesh_.size())) {
         targets.push = std::min(1.6, targets.push * 1.08);
         targets.pull = std::min(2.0, targets.pull * 1.08);
       }
     }
-    return best_.result();
+    return false;
   }
 
- private:
-  SweepCounts sweep_with_areas(const PushPull& targets) {
-    constexpr std::size_t between_checks = 4096;
+  static double area_target(const PushPullOptions& aims) { return *aims.area_sd * (1 - tight); }
+
+  SweepCounts sweep_with_areas(const PushPull& targets, double most) {
     SweepCounts count;
     for (std::size_t i = 0; (i = mesh_.take_marked(i, mesh_.size())) < mesh_.size(); ++i) {
       if (++count.visits % between_checks == 0) control_.check();
       const bool moved = push_pull_step(mesh_, i, targets);
-      const bool corrected = capacity_step(mesh_, i, area_target());
+      const bool corrected = capacity_step(mesh_, i, most);
       count.moves += moved || corrected ? 1 : 0;
       if (!moved || corrected) continue;
       for (int k = 0; k < mesh_.star(i).degree; ++k) mesh_.mark(mesh_.star(i).neighbor[k]);
     }
+    control_.check();
     return count;
   }
 
-  double area_target() const { return *options_.area_sd * (1 - tight); }
-
   /// Looks for what the marks may have missed; marks it.
-  bool is_clean() {
+  bool is_clean(const PushPullOptions& aims) {
     mesh_.legalize_all(control_);
-    if (options_.area_sd)
-      for (std::size_t i = 0; i < mesh_.size(); ++i)
-        if (std::abs(area_deviation(mesh_, i)) > area_target()) mesh_.mark(i);
+    if (!aims.area_sd) return !mesh_.any_marked();
+    for (std::size_t i = 0; i < mesh_.size(); ++i) {
+      if (i % between_checks == 0) control_.check();
+      if (std::abs(area_deviation(mesh_, i)) > area_target(aims)) mesh_.mark(i);
+    }
     return !mesh_.any_marked();
   }
 
-  void record(int sweep) {
+  void record() {
     mesh_.legalize_all(control_);
-    best_.record(sweep, static_cast<double>(sweep) / options_.max_sweeps);
+    best_.record(sweeps_, static_cast<double>(sweeps_) / options_.max_sweeps);
   }
 
   const PushPullOptions& options_;
   Control& control_;
   StarMesh mesh_;
   BestState best_;
+  int sweeps_ = 0;
 };
 
 }  // namespace
@@ -163,7 +195,8 @@ OptimizeResult push_pull(const PointSet& input, const PushPullOptions& options, 
     const double d = hexagonal_spacing(input.domain->area(), input.size());
     return {input, true, 0, {{0, before.r_c / before.r_f, before.r_c * d, before.r_f * d}}};
   }
-  OptimizeResult result = Relaxation(input, options, control).run();
+  const PushPullOptions aims = tightened(options, before.r_c / before.r_f);
+  OptimizeResult result = Relaxation(input, aims, control).run();
   result.converged = measure(result.points, control).holds(options);
   return result;
 }

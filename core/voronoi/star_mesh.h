@@ -61,12 +61,13 @@ struct Strip {
 ///
 /// Guarantees: stars are mutual and triangles counter-clockwise at all times, whatever sequence of moves
 /// (that keep the mover's triangles positive) and flips; after `legalize_all` every edge is locally Delaunay
-/// to within 1e-9, hence the triangulation is Delaunay to that. Coordinates are rounded to 2^-33 of the
-/// sides. `strips` are a function of the points alone. Errors of the constructor: those of require_usable;
-/// degenerate_input for fewer than 20 points, a torus whose shorter side is below 4 d_hex, more than 15
-/// neighbors of one point, or empty regions so large that edges reach around the torus; cancelled,
-/// deadline_exceeded. Cost: O(n) for even sets; 72 bytes a point. Determinism: a function of the points
-/// alone. Thread safety: none, but that strips of one color may be worked on at the same time.
+/// to within 1e-9, hence the triangulation is Delaunay to that, unless it would take a 16th neighbor of a
+/// point or an edge that reaches around the torus. Coordinates are rounded to 2^-33 of the sides. `strips`
+/// are a function of the points alone. Errors of the constructor: those of require_usable; degenerate_input
+/// for fewer than 20 points, a torus whose shorter side is below 4 d_hex, more than 15 neighbors of one
+/// point, or empty regions so large that edges reach around the torus; cancelled, deadline_exceeded. Cost:
+/// O(n) for even sets; 72 bytes a point. Determinism: a function of the points alone. Thread safety: none,
+/// but that strips of one color may be worked on at the same time.
 class StarMesh {
  public:
   StarMesh(const PointSet& points, const Control& control);

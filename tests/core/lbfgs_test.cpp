@@ -22,7 +22,7 @@ std::vector<Vec2> gradient(const std::vector<Vec2>& x) {
 TEST(Lbfgs, StartsDownTheDiagonal) {
   const std::vector<Vec2> g = gradient(std::vector<Vec2>(n));
   const std::vector<double> diagonal(n, .25);
-  const std::vector<Vec2> d = Lbfgs().direction(g, diagonal);
+  const std::vector<Vec2> d = Lbfgs().direction(g, diagonal, Control());
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(d[i], -.25 * g[i]);
 }
 
@@ -31,7 +31,7 @@ TEST(Lbfgs, FindsTheMinimumOfAParabola) {
   const std::vector<double> diagonal(n, .01);
   std::vector<Vec2> x(n), g = gradient(x);
   for (int step = 0; step < 200; ++step) {
-    std::vector<Vec2> s = lbfgs.direction(g, diagonal);
+    std::vector<Vec2> s = lbfgs.direction(g, diagonal, Control());
     ASSERT_LE(dot(s, g), 0);
     for (std::size_t i = 0; i < n; ++i) x[i] = x[i] + s[i];
     std::vector<Vec2> y = gradient(x);

@@ -83,10 +83,25 @@ TEST(PushPull, KeepsTheBestStateWhenItsTargetsAreOutOfReach) {
 TEST(PushPull, IsNeverWorseThanItsInputThoughItsTargetsMayBe) {
   const PointSet input = mps(400, 4);
   Control control;
-  const OptimizeResult even = push_pull(input, {.87, .65, {}, 500}, control);
+  const OptimizeResult even = push_pull(input, {.85, .68, {}, 500}, control);
   ASSERT_EQ(even.converged, true);
-  const OptimizeResult result = push_pull(even.points, {.92, 10, {}, 300}, control);
-  expect_laws(even.points, result);
+  for (const PushPullOptions& loose : {PushPullOptions{.89, 10, {}, 1000}, {.5, .64, {}, 1000}}) {
+    const OptimizeResult result = push_pull(even.points, loose, control);
+    EXPECT_EQ(result.converged, true);
+    EXPECT_LE(measure_spacing(result.points, control).beta, measure_spacing(even.points, control).beta);
+  }
+}
+
+TEST(PushPull, WinsWhatItCanWhereTargetsAreOutOfReach) {
+  const PushPullOptions hard[] = {{.99, .58, {}, 600}, {.87, .65, .001, 600}};
+  for (const PushPullOptions& options : hard) {
+    const PointSet input = mps(1000, 5);
+    Control control;
+    const OptimizeResult result = push_pull(input, options, control);
+    EXPECT_EQ(result.converged, false);
+    expect_laws(input, result);
+    EXPECT_LT(measure_spacing(result.points, control).beta, .75);
+  }
 }
 
 TEST(PushPull, WorksOnLatticesAndWhiteNoise) {
