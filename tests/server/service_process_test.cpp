@@ -81,7 +81,7 @@ TEST_F(ServiceProcess, AStopFinishesRequestsUnderWayAndKeepsJobsForTheNextStart)
   const std::string id = caller.submit("optimize", endless_request());
   ASSERT_TRUE(caller.running(id));
   auto sync = std::async(std::launch::async,
-                         [&] { return caller.post("/v1/optimize", optimize_request(6000, 0.6, 25)); });
+                         [&] { return caller.post("/v1/optimize", optimize_request(3000, 0.6, 15)); });
   ASSERT_TRUE(eventually([&] { return caller.metric("wellspaced_jobs_running") == 2; }));
   first.signal(SIGTERM);
   // The signal needs a moment; from then on it must not be ready.
