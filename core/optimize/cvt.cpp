@@ -32,7 +32,9 @@ struct Cells {
     for (std::size_t i = 0; i < mesh.size(); ++i) {
       if (i % between_checks == 0) control.check();
       const CellMoments m = moments(StarCell(mesh, i));
-      to_centroid[i] = m.centroid;
+      // Else it is no Voronoi cell, which happens where the mesh lacks edges that reach around the torus.
+      const bool inside = norm2(m.centroid) < m.outermost2;
+      to_centroid[i] = inside ? m.centroid : Vec2{};
       area[i] = m.area;
       energy += m.energy;
       shortest2 = std::min(shortest2, m.shortest2);
