@@ -19,7 +19,8 @@
 namespace wellspaced {
 namespace {
 
-constexpr double reached_at_once = 0.70;  // lower targets melt the triangulation unless approached in steps
+// Lower targets than these melt the triangulation unless approached in steps.
+constexpr double surely_reached = 0.70, often_reached = 0.69;
 constexpr double floor_beta = 0.57735026918962573;
 
 void require_options(const OptBetaOptions& o) {
@@ -87,11 +88,8 @@ class Descent {
 
   OptimizeResult run() {
     if (best_beta_ > options_.beta) {
-      const double first = std::max(options_.beta, reached_at_once);
-      PushPull targets = targets_for(first, options_.randomness);
-      const bool clean = relax(targets, {budget_, std::numeric_limits<double>::infinity(), true});
-      record();
-      if (clean && options_.beta < first) lower(first);
+      const double first = leap();
+      if (options_.beta < first) lower(first);
     }
     return result();
   }
@@ -101,6 +99,27 @@ class Descent {
     double visits, flips;  // in all, over all points
     bool escalate;         // raise the weights when nothing moves forward
   };
+
+  /// As far as can be got without steps. Returns the target that was reached, or 0 if the budget is used up.
+  double leap() {
+    constexpr double flips_a_point = 20, visits_a_point = 200,
+                     no_limit = std::numeric_limits<double>::infinity();
+    const auto n = static_cast<double>(mesh_.size());
+    if (options_.beta < surely_reached) {
+      const StarMesh::Snapshot start = mesh_.snapshot();
+      const double boldly = std::max(options_.beta, often_reached);
+      PushPull targets = targets_for(boldly, options_.randomness);
+      targets.look_across = true;
+      const bool clean = relax(targets, {visits_a_point * n, flips_a_point * n, false});
+      record();
+      if (clean) return boldly;
+      mesh_.restore(start);
+    }
+    const double first = std::max(options_.beta, surely_reached);
+    const bool clean = relax(targets_for(first, options_.randomness), {budget_, no_limit, true});
+    record();
+    return clean ? first : 0;
+  }
 
   /// Sweeps over marked points until nothing violates the targets. False: the allowance is used up.
   bool relax(PushPull targets, const Allowance& allowance) {
@@ -176,15 +195,17 @@ class Descent {
   OptimizeResult result() {
     mesh_.restore(best_);
     OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_)};
-    // Independently of the triangulation that was kept.
+    // What the mesh says of its places is right for the points to within this, but for points in a line.
+    constexpr double rounding = 1e-6;
+    const double before = result.history.front().beta;
+    if (best_beta_ <= options_.beta * (1 - rounding) && best_beta_ < before * (1 - rounding)) {
+      result.converged = true;
+      return result;
+    }
     double beta = measure_ratio(result.points, control_).beta();
-    // A set that isn't better is not worth having; the first record is the input's to within its rounding.
-    if (!(beta < 0.999 * result.history.front().beta)) {
-      const double before = measure_ratio(input_, control_).beta();
-      if (!(beta < before)) {
-        result.points = input_;
-        beta = before;
-      }
+    if (const double input_beta = measure_ratio(input_, control_).beta(); !(beta < input_beta)) {
+      result.points = input_;  // a set that isn't better is not worth having
+      beta = input_beta;
     }
     result.converged = beta <= options_.beta;
     return result;
@@ -228,7 +249,7 @@ OptimizeResult one_after_the_other(OptimizeResult first, OptimizeResult second) 
 }  // namespace
 
 int allowed_visits(const OptBetaOptions& options) {
-  return options.max_visits.value_or(options.beta < reached_at_once ? 20000 : 250);
+  return options.max_visits.value_or(options.beta < surely_reached ? 20000 : 250);
 }
 
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control) {

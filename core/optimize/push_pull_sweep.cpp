@@ -33,60 +33,140 @@ struct StripWork {
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
 constexpr float margin = 1.001f;  // aim a little past the targets, so that points settle
 constexpr float longest_step = 0.2f;
 constexpr float thinnest = 1e-3f;  // twice the area that a triangle must keep
 constexpr float illegal = -1e-5f;  // in-circle test in float: below this it is not rounding
 
-/// The star of one point as arrays of W lanes, so that the compiler makes vectors of them. Lanes past the
-/// degree repeat the first neighbor; place 0 and place W + 1 hold the last and the first one again.
+/// W floats, in as many vectors as that takes.
+template <int W>
+struct Row {
+  using D = hn::CappedTag<float, W>;
+  using V = hn::Vec<D>;
+  static constexpr int lanes = static_cast<int>(hn::MaxLanes(D())), vectors = W / lanes;
+
+  V v[vectors];
+
+  static Row load(const float* from) {
+    Row row;
+    for (int m = 0; m < vectors; ++m) row.v[m] = hn::LoadU(D(), from + m * lanes);
+    return row;
+  }
+  void store(float* to) const {
+    for (int m = 0; m < vectors; ++m) hn::StoreU(v[m], D(), to + m * lanes);
+  }
+  template <class F>
+  static Row of(const F& f) {
+    Row row;
+    for (int m = 0; m < vectors; ++m) row.v[m] = f(m);
+    return row;
+  }
+  /// The same, one place on.
+  Row next() const {
+    if constexpr (vectors == 1) {
+      alignas(64) static constexpr std::int32_t on[16] = {1, 2,  3,  4,  5,  6,  7,  W == 8 ? 0 : 8,
+                                                          9, 10, 11, 12, 13, 14, 15, 0};
+      return {{hn::TableLookupLanes(v[0], hn::SetTableIndices(D(), on))}};
+    } else {
+      alignas(64) float places[W + 1];
+      store(places);
+      places[W] = places[0];
+      return load(places + 1);
+    }
+  }
+  /// One place back; the first one gets the last of `degree` places.
+  Row before(int degree) const {
+    alignas(64) float places[W + 1];
+    store(places + 1);
+    places[0] = places[degree];
+    return load(places);
+  }
+
+  friend Row operator+(Row a, Row b) {
+    return of([&](int m) { return hn::Add(a.v[m], b.v[m]); });
+  }
+  friend Row operator-(Row a, Row b) {
+    return of([&](int m) { return hn::Sub(a.v[m], b.v[m]); });
+  }
+  friend Row operator*(Row a, Row b) {
+    return of([&](int m) { return hn::Mul(a.v[m], b.v[m]); });
+  }
+  friend Row operator/(Row a, Row b) {
+    return of([&](int m) { return hn::Div(a.v[m], b.v[m]); });
+  }
+  static Row all(float value) {
+    return of([&](int) { return hn::Set(D(), value); });
+  }
+  Row root() const {
+    return of([&](int m) { return hn::Sqrt(v[m]); });
+  }
+  /// 0 where a is not below b.
+  Row where_less(Row a, Row b) const {
+    return of([&](int m) { return hn::IfThenElseZero(hn::Lt(a.v[m], b.v[m]), v[m]); });
+  }
+  /// One bit a place where a < b.
+  static std::uint32_t less(Row a, Row b) {
+    std::uint32_t found = 0;
+    for (int m = 0; m < vectors; ++m) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(D(), hn::Lt(a.v[m], b.v[m]), bits);
+      found |= (bits[0] | static_cast<std::uint32_t>(bits[1]) << 8) << (m * lanes);
+    }
+    return found;
+  }
+  /// In an order that does not depend on the width of vectors.
+  float sum() const {
+    alignas(64) float places[W];
+    store(places);
+    for (int half = W / 2; half > 0; half /= 2)
+      for (int k = 0; k < half; ++k) places[k] += places[k + half];
+    return places[0];
+  }
+};
+
+/// The star of one point: places past its degree repeat the first neighbor.
 template <int W>
 struct Lanes {
-  alignas(64) float x[W + 2], y[W + 2], d2[W + 2];  // neighbors: offset and squared distance, lane k at k + 1
-  alignas(64) float cx[W], cy[W], r2[W], area[W];   // triangle k, between neighbors k and k + 1
-
-  void close(int degree) {
-    x[0] = x[degree];
-    y[0] = y[degree];
-    x[W + 1] = x[1];
-    y[W + 1] = y[1];
-  }
+  Row<W> x, y, d2;          // neighbors: offset and squared distance
+  Row<W> cx, cy, r2, area;  // triangle k, between neighbors k and k + 1
 
   void load(const StarMesh& mesh, std::size_t i) {
     const Star& star = mesh.star(i);
     const FixedPoint here = mesh.at(i);
-    const float sx = static_cast<float>(mesh.scale().x), sy = static_cast<float>(mesh.scale().y);
+    alignas(64) std::int32_t dx[W], dy[W];
     for (int k = 0; k < W; ++k) {
       const FixedPoint there = mesh.at(star.neighbor[k < Star::most ? k : 0]);
-      x[k + 1] = static_cast<float>(static_cast<std::int32_t>(there.x - here.x)) * sx;
-      y[k + 1] = static_cast<float>(static_cast<std::int32_t>(there.y - here.y)) * sy;
+      dx[k] = static_cast<std::int32_t>(there.x - here.x);
+      dy[k] = static_cast<std::int32_t>(there.y - here.y);
     }
-    close(star.degree);
+    x = scaled(dx, static_cast<float>(mesh.scale().x));
+    y = scaled(dy, static_cast<float>(mesh.scale().y));
   }
 
   void shift_from(const Lanes& other, float dx, float dy) {
-    for (int k = 0; k < W + 2; ++k) x[k] = other.x[k] - dx;
-    for (int k = 0; k < W + 2; ++k) y[k] = other.y[k] - dy;
+    x = other.x - Row<W>::all(dx);
+    y = other.y - Row<W>::all(dy);
   }
 
   void evaluate() {
-    for (int k = 0; k < W + 2; ++k) d2[k] = x[k] * x[k] + y[k] * y[k];
-    for (int k = 0; k < W; ++k) {
-      const float ax = x[k + 1], ay = y[k + 1], a2 = d2[k + 1], bx = x[k + 2], by = y[k + 2], b2 = d2[k + 2];
-      area[k] = ax * by - ay * bx;
-      const float h = 0.5f / area[k];
-      cx[k] = h * (by * a2 - ay * b2);
-      cy[k] = h * (ax * b2 - bx * a2);
-      r2[k] = cx[k] * cx[k] + cy[k] * cy[k];
-    }
+    d2 = x * x + y * y;
+    const Row<W> bx = x.next(), by = y.next(), b2 = bx * bx + by * by;
+    area = x * by - y * bx;
+    const Row<W> h = Row<W>::all(0.5f) / area;
+    cx = h * (by * d2 - y * b2);
+    cy = h * (x * b2 - bx * d2);
+    r2 = cx * cx + cy * cy;
   }
 
-  /// One bit a lane where `test(k)` holds.
-  template <class Test>
-  static std::uint32_t bits(int degree, const Test& test) {
-    std::uint32_t found = 0;
-    for (int k = 0; k < W; ++k) found |= static_cast<std::uint32_t>(test(k)) << k;
-    return found & ((1u << degree) - 1);
+ private:
+  static Row<W> scaled(const std::int32_t* steps, float scale) {
+    using D = typename Row<W>::D;
+    const hn::RebindToSigned<D> whole;
+    return Row<W>::of([&](int m) {
+      return hn::Mul(hn::ConvertTo(D(), hn::Load(whole, steps + m * Row<W>::lanes)), hn::Set(D(), scale));
+    });
   }
 };
 
@@ -143,31 +223,41 @@ class Visit {
     return false;
   }
 
-  /// Spoke k is illegal where the neighbor before it (at place k) lies inside the circle of triangle k.
+  /// Spoke k is illegal where the neighbor before it lies inside the circle of triangle k.
   void suspect_spokes() {
-    const auto inside = [&](int k) {
-      return now_.d2[k] - 2 * (now_.x[k] * now_.cx[k] + now_.y[k] * now_.cy[k]) < illegal;
-    };
-    for_each_bit(Lanes<W>::bits(degree_, inside),
+    const Row<W> x = now_.x.before(degree_), y = now_.y.before(degree_), d2 = x * x + y * y;
+    const Row<W> outside = d2 - Row<W>::all(2) * (x * now_.cx + y * now_.cy);
+    for_each_bit(Row<W>::less(outside, Row<W>::all(illegal)) & places(),
                  [&](int k) { suspects_.add(static_cast<std::uint32_t>(i_), mesh_.star(i_).neighbor[k]); });
   }
 
+  std::uint32_t places() const { return (1u << degree_) - 1; }
+
   void look(const Lanes<W>& lanes) {
-    near_ = Lanes<W>::bits(degree_, [&](int k) { return lanes.d2[k + 1] < r_f2_; });
-    far_ = Lanes<W>::bits(degree_, [&](int k) { return r_c2_ < lanes.r2[k]; });
+    near_ = Row<W>::less(lanes.d2, Row<W>::all(r_f2_)) & places();
+    far_ = Row<W>::less(Row<W>::all(r_c2_), lanes.r2) & places();
   }
 
   Vec2f displacement() const {
-    Vec2f sum{0, 0};
-    const float push = static_cast<float>(t_.push), pull = static_cast<float>(t_.pull);
-    for_each_bit(near_, [&](int k) {
-      const float d = std::sqrt(now_.d2[k + 1]), weight = push * (d - r_f_ * margin) / d;
-      sum = {sum.x + weight * now_.x[k + 1], sum.y + weight * now_.y[k + 1]};
-    });
-    for_each_bit(far_, [&](int k) {
-      const float r = std::sqrt(now_.r2[k]), weight = pull * (r - r_c_ / margin) / r;
-      sum = {sum.x + weight * now_.cx[k], sum.y + weight * now_.cy[k]};
-    });
+    const Row<W> place = Row<W>::load(place_numbers), degree = Row<W>::all(static_cast<float>(degree_));
+    Row<W> x = Row<W>::all(0), y = x;
+    if (near_ != 0) {
+      const Row<W> d = now_.d2.root();
+      const Row<W> weight = (Row<W>::all(static_cast<float>(t_.push)) * (d - Row<W>::all(r_f_ * margin)) / d)
+                                .where_less(now_.d2, Row<W>::all(r_f2_))
+                                .where_less(place, degree);
+      x = weight * now_.x;
+      y = weight * now_.y;
+    }
+    if (far_ != 0) {
+      const Row<W> r = now_.r2.root();
+      const Row<W> weight = (Row<W>::all(static_cast<float>(t_.pull)) * (r - Row<W>::all(r_c_ / margin)) / r)
+                                .where_less(Row<W>::all(r_c2_), now_.r2)
+                                .where_less(place, degree);
+      x = x + (weight * now_.cx).where_less(place, degree);
+      y = y + (weight * now_.cy).where_less(place, degree);
+    }
+    const Vec2f sum{x.sum(), y.sum()};
     const float length2 = sum.x * sum.x + sum.y * sum.y;
     if (length2 <= longest_step * longest_step) return sum;
     const float shrink = longest_step / std::sqrt(length2);
@@ -180,24 +270,23 @@ class Visit {
     for (int halvings = 0;; ++halvings) {
       next_.shift_from(now_, move.x, move.y);
       next_.evaluate();
-      if (Lanes<W>::bits(degree_, [&](int k) { return next_.area[k] < thinnest; }) == 0) return true;
+      if ((Row<W>::less(next_.area, Row<W>::all(thinnest)) & places()) == 0) return true;
       if (halvings == most_halvings) return false;
       move = {move.x * 0.5f, move.y * 0.5f};
     }
   }
 
   void commit(Vec2f move) {
-    const auto steps = [](float length, double scale) {
-      return static_cast<std::uint32_t>(static_cast<std::int32_t>(static_cast<double>(length) / scale));
-    };
-    const FixedPoint from = mesh_.at(i_);
-    mesh_.move_to(i_, {from.x + steps(move.x, mesh_.scale().x), from.y + steps(move.y, mesh_.scale().y)});
+    mesh_.move_to(i_, mesh_.moved(i_, {static_cast<double>(move.x), static_cast<double>(move.y)}));
     look(next_);
     if ((near_ | far_) == 0) return;
     mesh_.mark(i_);
-    const std::uint32_t beyond = ((far_ << 1) | (far_ >> (degree_ - 1))) & ((1u << degree_) - 1);
+    const std::uint32_t beyond = ((far_ << 1) | (far_ >> (degree_ - 1))) & places();
     for_each_bit(near_ | far_ | beyond, [&](int k) { mesh_.mark(mesh_.star(i_).neighbor[k]); });
   }
+
+  alignas(64) static constexpr float place_numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                          8, 9, 10, 11, 12, 13, 14, 15};
 
   StarMesh& mesh_;
   Suspects& suspects_;

@@ -46,6 +46,7 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
   if (const auto why = why_too_small(*points.domain, points.size()))
     throw Error(ErrorCode::degenerate_input, *why);
   scale_ = {width_ / turn / spacing_, height_ / turn / spacing_};
+  steps_ = {1 / scale_.x, 1 / scale_.y};
   build_stars(points, control);
   marks_.assign((size() + 63) / 64, 0);
 }
@@ -53,13 +54,6 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
 Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
   return {static_cast<double>(static_cast<std::int32_t>(at_[j].x - at_[i].x)) * scale_.x,
           static_cast<double>(static_cast<std::int32_t>(at_[j].y - at_[i].y)) * scale_.y};
-}
-
-FixedPoint StarMesh::moved(std::size_t i, Vec2 by) const {
-  const auto steps = [](double length, double scale) {
-    return static_cast<std::uint32_t>(static_cast<std::int64_t>(length / scale));
-  };
-  return {at_[i].x + steps(by.x, scale_.x), at_[i].y + steps(by.y, scale_.y)};
 }
 
 // Cocircular neighbors have no one triangulation: points are nudged, by far less than any target's margin.

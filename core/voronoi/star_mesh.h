@@ -88,7 +88,12 @@ class StarMesh {
 
   void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
   /// Where point i comes to stand if it moves by `by` (in units of d_hex).
-  FixedPoint moved(std::size_t i, Vec2 by) const;
+  FixedPoint moved(std::size_t i, Vec2 by) const {
+    const auto whole = [](double steps) {
+      return static_cast<std::uint32_t>(static_cast<std::int64_t>(steps));
+    };
+    return {at_[i].x + whole(by.x * steps_.x), at_[i].y + whole(by.y * steps_.y)};
+  }
 
   /// Whether all triangles are counter-clockwise, as they may not be after many points moved at once.
   bool is_positive() const;
@@ -160,7 +165,7 @@ class StarMesh {
   std::optional<std::array<std::uint32_t, 3>> triangle_at(FixedPoint place, std::size_t near) const;
 
   double spacing_ = 0, width_ = 0, height_ = 0;
-  Vec2 scale_;
+  Vec2 scale_, steps_;
   std::vector<FixedPoint> at_;
   std::vector<std::uint32_t> original_;
   std::vector<Star> stars_;

@@ -1,0 +1,229 @@
+// Time and memory of what users wait for, beside what CGAL alone takes for the same points in the same run.
+// wellspaced_bench [--short | --long] and Google Benchmark's own flags, such as --benchmark_filter.
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "core/analyze/certificate.h"
+#include "core/analyze/spacing.h"
+#include "core/domain/torus.h"
+#include "core/generate/generate.h"
+#include "core/generate/poisson_disk.h"
+#include "core/optimize/cvt.h"
+#include "core/optimize/opt_beta.h"
+#include "core/optimize/opt_beta_local.h"
+#include "core/optimize/push_pull.h"
+#include "core/voronoi/cell_finder.h"
+#include "core/voronoi/star_mesh.h"
+#include "tests/bench/cgal_baseline.h"
+#include "tests/bench/table.h"
+#include "tests/bench/workload.h"
+
+namespace wellspaced::bench {
+namespace {
+
+using benchmark::State;
+using Work = std::function<void(State&, Control&)>;
+
+struct Row {
+  std::string name;
+  Bar bar;
+  Work work;
+  int repetitions = 5;
+  unsigned threads = 1;
+};
+
+constexpr std::uint64_t ten_thousand = 10'000, hundred_thousand = 100'000, million = 1'000'000,
+                        ten_million = 10'000'000;
+
+std::string words(std::uint64_t count) {
+  return count >= million ? std::to_string(count / million) + "M" : std::to_string(count / 1000) + "k";
+}
+
+Row optimizing(std::uint64_t count, double beta, double bar, unsigned threads = 1,
+               OptBetaOptions::Randomness randomness = OptBetaOptions::Randomness::fast) {
+  const bool gentle = randomness == OptBetaOptions::Randomness::gentle;
+  char target[16];
+  std::snprintf(target, sizeof target, "%.3f", beta);
+  const std::string name = std::string("opt-beta/") + words(count) + "/to " + target +
+                           (gentle ? "/gentle" : "") +
+                           (threads > 1 ? "/" + std::to_string(threads) + " threads" : "");
+  const auto work = [=](State& state, Control& control) {
+    const OptimizeResult result = opt_beta(mps(count), {beta, randomness, {}}, control);
+    state.PauseTiming();
+    state.counters["beta_upper"] = certify(result.points, control).value().beta_upper;
+    state.counters["sweeps"] = result.sweeps;
+    if (result.converged != true) state.SkipWithError("the target was not reached");
+    state.ResumeTiming();
+  };
+  return {name, {bar, "s", 1}, work, count >= million ? 1 : 5, threads};
+}
+
+Row sampling(std::uint64_t count, double bar, unsigned threads = 1) {
+  const auto work = [=](State& state, Control& control) {
+    Rng rng(1);
+    const PointSet points =
+        poisson_disk(std::make_shared<Torus>(), {poisson_disk_radius(1, count)}, rng, control);
+    state.counters["n"] = static_cast<double>(points.size());
+  };
+  return {"poisson-disk/" + words(count) + (threads > 1 ? "/2 threads" : ""),
+          {bar, "s", 1},
+          work,
+          count >= million ? 3 : 9,
+          threads};
+}
+
+Row candidate_cells() {
+  const PointSet& points = mps(ten_thousand);
+  const auto work = [&points](State&, Control& control) {
+    const double spacing = hexagonal_spacing(1, points.size());
+    const NeighborGrid grid(points, spacing);
+    CellFinder finder(points, grid, 2.5 * spacing, control);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      finder.load(i);
+      for (int k = 0; k < 22; ++k)
+        benchmark::DoNotOptimize(finder.radii_at({0.001 * spacing * k, -0.002 * spacing * k}));
+    }
+  };
+  return {"kernel/candidate cell", {100, "ns", 22.0 * static_cast<double>(points.size())}, work};
+}
+
+Row stars() {
+  const PointSet& points = mps(ten_thousand);
+  const auto work = [mesh = StarMesh(points, Control())](State&, Control&) {
+    benchmark::DoNotOptimize(mesh.measure());
+  };
+  return {"kernel/star", {8, "ns", static_cast<double>(points.size())}, work, 9};
+}
+
+Row local_sweep() {
+  const auto work = [](State&, Control& control) {
+    benchmark::DoNotOptimize(opt_beta_local(mps(ten_thousand), {0.6, 3, {}}, control));
+  };
+  return {"opt-beta-local/10k/sweep", {3, "us", 3.0 * ten_thousand}, work};
+}
+
+Row lloyd() {
+  constexpr int sweeps = 20;
+  const auto work = [](State&, Control& control) {
+    benchmark::DoNotOptimize(cvt(mps(ten_thousand), {CvtOptions::Variant::lloyd, sweeps, 0}, control));
+  };
+  return {"cvt/10k/Lloyd iteration", {0.3, "us", sweeps * 1.0 * ten_thousand}, work};
+}
+
+Row pushing() {
+  const auto work = [](State& state, Control& control) {
+    const OptimizeResult result = push_pull(mps(ten_thousand), {.87, .65, {}, 1000}, control);
+    state.counters["beta"] = measure_spacing(result.points, control).beta;
+  };
+  return {"push-pull/10k/rho .87, coverage .65", {0.11, "s", 1}, work};
+}
+
+template <class Function>
+Row of_set(const std::string& name, std::uint64_t count, double bar, Function function) {
+  const auto work = [=](State&, Control& control) {
+    benchmark::DoNotOptimize(function(mps(count), control));
+  };
+  return {name + "/" + words(count), {bar, "s", 1}, work, count >= million ? 3 : 9};
+}
+
+Row analysis(std::uint64_t count, double bar) {
+  return of_set("spacing with all beta_i", count, bar,
+                [](const PointSet& p, const Control& c) { return measure_local_spacing(p, c).global.beta; });
+}
+Row proof(std::uint64_t count, double bar) {
+  return of_set("certificate", count, bar,
+                [](const PointSet& p, const Control& c) { return certify(p, c).value().beta_upper; });
+}
+Row cgal(std::uint64_t count) {
+  return of_set("CGAL/Delaunay, not periodic", count, 0,
+                [](const PointSet& p, const Control&) { return cgal_delaunay(p); });
+}
+Row cgal_cells(std::uint64_t count) {
+  return of_set("CGAL/Lloyd iteration, torus", count, 0,
+                [](const PointSet& p, const Control&) { return cgal_lloyd(p); });
+}
+
+std::vector<Row> short_rows() {
+  using enum OptBetaOptions::Randomness;
+  return {candidate_cells(),
+          stars(),
+          local_sweep(),
+          sampling(ten_thousand, .006),
+          optimizing(ten_thousand, .788, .012),
+          optimizing(ten_thousand, .747, .02),
+          optimizing(ten_thousand, .70, .035),
+          optimizing(ten_thousand, .69, .06),
+          optimizing(ten_thousand, .747, 0, 1, gentle),
+          pushing(),
+          lloyd(),
+          analysis(ten_thousand, 0),
+          proof(ten_thousand, 0),
+          cgal(ten_thousand),
+          cgal_cells(ten_thousand)};
+}
+
+std::vector<Row> more_rows() {
+  return {optimizing(hundred_thousand, .747, .2),
+          sampling(million, .7),
+          sampling(million, .4, 2),
+          optimizing(million, .75, 2.2),
+          optimizing(million, .75, 2.2 / 1.7, 2),
+          optimizing(million, .70, 3.5),
+          analysis(million, .2),
+          proof(million, 1),
+          cgal(million)};
+}
+
+std::vector<Row> long_rows() { return {optimizing(ten_thousand, .667, 30), optimizing(ten_million, .75, 0)}; }
+
+void add(const Row& row, std::map<std::string, Bar>& bars) {
+  bars[row.name] = row.bar;
+  const auto run = [row](State& state) {
+    struct Quiet final : Control {
+      using Control::Control;
+    } control(row.threads);
+    forget_peak();
+    for (auto iteration : state) row.work(state, control);
+    state.counters["peak MiB"] = peak_mib();
+  };
+  auto* bench =
+      benchmark::RegisterBenchmark(row.name.c_str(), run)->Iterations(1)->Repetitions(row.repetitions);
+  if (row.threads > 1)
+    bench->UseRealTime();
+  else
+    bench->MeasureProcessCPUTime();
+}
+
+bool take_flag(int& argc, char** argv, const char* flag) {
+  char** end =
+      std::remove_if(argv + 1, argv + argc, [&](const char* a) { return std::strcmp(a, flag) == 0; });
+  const bool found = end != argv + argc;
+  argc = static_cast<int>(end - argv);
+  return found;
+}
+
+int main(int argc, char** argv) {
+  const bool brief = take_flag(argc, argv, "--short"), everything = take_flag(argc, argv, "--long");
+  std::map<std::string, Bar> bars;
+  std::vector<Row> rows = short_rows();
+  const auto append = [&](std::vector<Row> more) { rows.insert(rows.end(), more.begin(), more.end()); };
+  if (!brief) append(more_rows());
+  if (everything) append(long_rows());
+  for (const Row& row : rows) add(row, bars);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  Table table(bars);
+  benchmark::RunSpecifiedBenchmarks(&table);
+  return 0;
+}
+
+}  // namespace
+}  // namespace wellspaced::bench
+
+int main(int argc, char** argv) { return wellspaced::bench::main(argc, argv); }

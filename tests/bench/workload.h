@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/point_set.h"
+
+namespace wellspaced::bench {
+
+/// Maximal Poisson-disk points on the unit torus, seed 1; made once a process.
+const PointSet& mps(std::uint64_t count);
+
+/// The process's peak memory since the last call of `forget_peak`, in MiB; 0 where /proc can't tell.
+double peak_mib();
+void forget_peak();
+
+}  // namespace wellspaced::bench
