@@ -18,10 +18,10 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
   farthest_reach_ = 2 * norm(points.domain->box().size);
 }
 
-void CellFinder::load(std::uint32_t i) {
+void CellFinder::load(std::uint32_t i, double reach) {
   self_ = i;
   base_ = (*points_)[i];
-  gather(first_reach_);
+  gather(reach);
 }
 
 void CellFinder::gather(double reach) {
