@@ -9,6 +9,7 @@
 #include "core/generate/jittered.h"
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
+#include "core/generate/two_radii.h"
 #include "core/generate/white_noise.h"
 #include "core/optimize/opt_beta.h"
 #include "core/optimize/opt_beta_local.h"
@@ -53,6 +54,24 @@ Parameter radius() {
           "",
           false,
           true};
+}
+
+Parameter coverage_ratio() {
+  Parameter p;
+  p.name = "beta";
+  p.description = "Coverage radius over conflict radius: no place is farther than beta r from all points";
+  p.minimum = 1;
+  p.maximum = 2;
+  p.exclusive_minimum = true;
+  p.fallback = "1.5";
+  return p;
+}
+
+TwoRadiiOptions two_radii_options(const Arguments& a) {
+  TwoRadiiOptions options;
+  options.radius = argument(a, "radius").value_or(options.radius);
+  options.beta = argument(a, "beta").value_or(options.beta);
+  return options;
 }
 
 Parameter beta(const std::string& fallback) {
@@ -105,6 +124,27 @@ const std::vector<Generator> generator_rows = {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
      {5e-6, 180}},
+    {{"two-radii",
+      "Two-radii Poisson-disk sampling",
+      "Random points, none nearer than r to another, no place farther than beta r from all: between "
+      "poisson-disk and white noise.",
+      "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
+      {count(false), radius(), coverage_ratio()}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       const auto torus = torus_of(domain);
+       const TwoRadiiOptions options = two_radii_options(a);
+       return argument(a, "radius") ? two_radii(torus, options, rng, control)
+                                    : two_radii_of_count(torus, count_of(a), options, rng, control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       return argument(a, "radius") ? two_radii_count(domain.area(), two_radii_options(a))
+                                    : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {8e-6, 220}},
     {{"white-noise",
       "White noise",
       "Independent uniform points: what nothing is spaced looks like.",

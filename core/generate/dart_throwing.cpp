@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/generate/farthest_point.h"
 #include "core/generate/row_order.h"
 #include "core/parallel.h"
 #include "core/voronoi/cell_finder.h"
@@ -64,13 +65,11 @@ class SampleGrid {
 
   /// Whether a point of base cell (i, j) is nearer than the conflict radius to a sample.
   bool conflicts(std::int64_t i, std::int64_t j, Vec2 p) const {
-    for (std::int64_t gj = j - y.near; gj <= j + y.near; ++gj) {
-      const Vec2* row = &table_[index(i - x.near, gj)];
-      bool hit = false;
-      for (std::int64_t k = 0; k <= 2 * x.near; ++k) hit |= norm2(row[k] - p) < conflict2_;
-      if (hit) return true;
-    }
-    return false;
+    return any_within(i, j, p, {x.near, y.near}, conflict2_);
+  }
+  /// Whether a sample covers it.
+  bool covered(std::int64_t i, std::int64_t j, Vec2 p) const {
+    return any_within(i, j, p, {x.reach, y.reach}, coverage2_);
   }
 
   /// Whether one sample's disk covers the whole square with that center and half-side.
@@ -98,6 +97,19 @@ class SampleGrid {
   }
   const Vec2& at(std::int64_t i, std::int64_t j) const { return table_[index(i, j)]; }
 
+  struct Reach {
+    std::int64_t x, y;
+  };
+  bool any_within(std::int64_t i, std::int64_t j, Vec2 p, Reach reach, double radius2) const {
+    for (std::int64_t gj = j - reach.y; gj <= j + reach.y; ++gj) {
+      const Vec2* row = &table_[index(i - reach.x, gj)];
+      bool hit = false;
+      for (std::int64_t k = 0; k <= 2 * reach.x; ++k) hit |= norm2(row[k] - p) < radius2;
+      if (hit) return true;
+    }
+    return false;
+  }
+
   std::vector<Vec2> table_;
   double conflict2_, coverage2_;
 };
@@ -110,7 +122,7 @@ struct ActiveCell {
 class Sampler {
  public:
   Sampler(const Torus& torus, const DiskRadii& radii, Rng& rng, Control& control)
-      : grid_(torus, radii), rng_(rng), control_(control) {}
+      : grid_(torus, radii), radii_(radii), rng_(rng), control_(control) {}
 
   /// Throws darts into the active cells and halves them, until no active cell is left (or they reach the
   /// resolution of their 32-bit indices: proof deals with what is left then).
@@ -145,6 +157,7 @@ class Sampler {
  private:
   static constexpr double darts_a_cell = 0.5;  // a cell that is missed is halved, which finds its gap faster
   static constexpr std::size_t darts_between_checks = 1 << 14;
+  static constexpr int most_draws = 16;
 
   Vec2 side() const {
     return {grid_.x.side / static_cast<double>(std::int64_t{1} << level_x_),
@@ -168,8 +181,27 @@ class Sampler {
       // Rounding may lift the last cell's points onto the period, which is 0.
       const Vec2 p{wrap((c.i + u) * size.x, grid_.x.period), wrap((c.j + v) * size.y, grid_.y.period)};
       const bool wrapped = p.x < c.i * size.x || p.y < c.j * size.y;
-      if (!wrapped && !grid_.conflicts(i, j, p)) grid_.put(i, j, p);
+      if (wrapped || grid_.covered(i, j, p)) continue;
+      put(radii_.conflict < radii_.coverage ? drawn_near(p) : p);
     }
+  }
+
+  void put(Vec2 p) {
+    const auto [i, j] = grid_.cell_of(p);
+    grid_.put(i, j, p);
+  }
+
+  /// A point that covers the uncovered place and conflicts with no sample; at worst the place itself.
+  Vec2 drawn_near(Vec2 place) {
+    for (int draw = 0; draw < most_draws; ++draw) {
+      const double u = 2 * rng_.uniform() - 1, v = 2 * rng_.uniform() - 1;
+      if (u * u + v * v >= 1) continue;
+      const Vec2 p{wrap(place.x + u * radii_.coverage, grid_.x.period),
+                   wrap(place.y + v * radii_.coverage, grid_.y.period)};
+      const auto [i, j] = grid_.cell_of(p);
+      if (!grid_.taken(i, j) && !grid_.conflicts(i, j, p)) return p;
+    }
+    return place;
   }
 
   /// Keeps the parts of active cells that no single disk covers. Long cells, which only thin tori have, are
@@ -197,6 +229,7 @@ class Sampler {
   }
 
   SampleGrid grid_;
+  DiskRadii radii_;
   Rng& rng_;
   Control& control_;
   std::vector<ActiveCell> active_, next_;
@@ -230,13 +263,6 @@ PointSet throw_darts(const std::shared_ptr<const Torus>& torus, const DiskRadii&
                      Control& control) {
   Sampler sampler(*torus, radii, rng, control);
   sampler.run();
-  return sampler.samples(torus);
-}
-
-PointSet throw_darts_and_prove(const std::shared_ptr<const Torus>& torus, const DiskRadii& radii, Rng& rng,
-                               Control& control) {
-  Sampler sampler(*torus, radii, rng, control);
-  sampler.run();
   PointSet points = sampler.samples(torus);
   // A corner that lies within rounding of the radius can't be filled and need not be.
   for (;;) {
@@ -248,6 +274,34 @@ PointSet throw_darts_and_prove(const std::shared_ptr<const Torus>& torus, const 
   }
   control.report({1});
   return points;
+}
+
+double count_below(double count) { return std::max(1.0, count - 0.75 * std::sqrt(count)); }
+
+PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
+                              const DiskRadii& radii, Rng& rng, Control& control) {
+  if (count == 1) {  // the radius for it would be one that leaves a gap of no size
+    const Vec3 only = torus->random_point(rng);
+    return {torus, {only.x, only.y}};
+  }
+  const double farthest = norm(torus->box().size) / 2, beta = radii.coverage / radii.conflict;
+  for (double radius = radii.conflict;; radius = std::min(1.01 * radius, farthest)) {
+    Sampler sampler(*torus, {radius, beta * radius}, rng, control);
+    sampler.run();
+    PointSet points = sampler.samples(torus);
+    const std::size_t drawn = points.size();
+    if (drawn > count) continue;
+    const double coverage = beta * radius;
+    FarthestPointEnd end;
+    end.count = count;
+    end.shallowest = coverage * (1 - 1.5 * static_cast<double>(count - drawn) / static_cast<double>(count));
+    // Were the darts to leave a gap of more than the radius with no point to spare for it, beta would be
+    // above what is wanted.
+    if (insert_farthest(points, end, control) > coverage * (1 + 1e-9)) continue;
+    bring_into_rows(points, drawn, radius, control);
+    control.report({1});
+    return points;
+  }
 }
 
 }  // namespace wellspaced

@@ -53,7 +53,7 @@ TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
        "known here are: count, domain, method"},
       {"generate", R"({"cuont":10})", invalid, "/cuont", "count"},
       {"generate", R"({"method":"dart","count":10})", invalid, "/method",
-       "poisson-disk, white-noise, jittered"},
+       "poisson-disk, two-radii, white-noise, jittered"},
       {"generate", R"({"method":"white-noise","radius":0.1})", invalid, "/radius", "known here are: count"},
       {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type", "torus"},
       {"generate", R"({"count":10,"domain":{"depth":1}})", invalid, "/domain/depth", "height, type, width"},
