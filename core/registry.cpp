@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/domain/torus.h"
+#include "core/generate/delaunay_refinement.h"
 #include "core/generate/generate.h"
 #include "core/generate/jittered.h"
 #include "core/generate/lattice.h"
@@ -144,7 +145,7 @@ const std::vector<Generator> generator_rows = {
      [](const Domain& domain, const Arguments& a) {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
-     {8e-6, 220}},
+     {1e-5, 260}},
     {{"white-noise",
       "White noise",
       "Independent uniform points: what nothing is spaced looks like.",
@@ -169,6 +170,28 @@ const std::vector<Generator> generator_rows = {
      counted,
      nullptr,
      {1e-7, 64}},
+    {{"delaunay-refinement",
+      "Delaunay refinement",
+      "The circumcenter of the largest Delaunay triangle becomes a point until none is larger than r, which "
+      "is "
+      "also the least distance: beta <= 1, and no randomness.",
+      "Chew, Guaranteed-Quality Triangular Meshes, 1989",
+      {count(false), radius()}},
+     false,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+       const auto torus = torus_of(domain);
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement(torus, *r, control)
+                : delaunay_refinement_of_count(torus, count_of(a), control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement_count(domain.area(), *r) : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {1e-5, 200}},
     {{"triangular",
       "Triangular lattice",
       "The best possible spacing and no randomness: the least stretched lattice of that many points, beta = "

@@ -39,7 +39,7 @@ class Inserter {
     const std::size_t first = points_.size();
     std::optional<Hole> hole = deepest();
     for (std::size_t k = 0; hole && points_.size() < end_.count; ++k) {
-      if (k % 256 == 0) report(first);
+      if (k % 256 == 0) report(first, hole->depth);
       insert(*hole);
       hole = deepest();
     }
@@ -128,11 +128,15 @@ class Inserter {
     }
   }
 
-  void report(std::size_t first) {
+  void report(std::size_t first, double depth) {
     control_.check();
+    const double reached =
+        end_.coverage / depth;  // as many points have that depth as its disk goes into the area
+    double fraction = reached * reached;
     if (end_.count < std::numeric_limits<std::size_t>::max())
-      control_.report(
-          {static_cast<double>(points_.size() - first) / static_cast<double>(end_.count - first)});
+      fraction = std::max(
+          fraction, static_cast<double>(points_.size() - first) / static_cast<double>(end_.count - first));
+    control_.report({fraction});
   }
 
   PointSet& points_;
