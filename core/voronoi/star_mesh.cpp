@@ -46,7 +46,7 @@ void require_room(const PointSet& points, double spacing) {
   throw Error(ErrorCode::degenerate_input,
               why +
                   "; start from a point set that is spread over its domain, such as "
-                  "poisson-disk gives, or use opt-beta-local");
+                  "poisson-disk gives, fill them with enrich, or use opt-beta-local");
 }
 
 }  // namespace
