@@ -5,9 +5,12 @@
 #include <limits>
 
 #include "core/domain/torus.h"
+#include "core/generate/delaunay_refinement.h"
 #include "core/generate/generate.h"
+#include "core/generate/jittered.h"
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
+#include "core/generate/two_radii.h"
 #include "core/generate/white_noise.h"
 #include "core/optimize/cvt.h"
 #include "core/optimize/distmesh.h"
@@ -30,10 +33,10 @@ std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domai
   throw Error(ErrorCode::invalid_parameters, "this method needs a torus", "/domain/type");
 }
 
-Parameter count(const std::string& how_near, bool alone) {
+Parameter count(bool alone) {
   return {"count",
           Parameter::Type::integer,
-          "Wanted number of points; " + how_near,
+          "Exact number of points",
           "",
           1,
           largest_count,
@@ -58,6 +61,24 @@ Parameter radius() {
           true};
 }
 
+Parameter coverage_ratio() {
+  Parameter p;
+  p.name = "beta";
+  p.description = "Coverage radius over conflict radius: no place is farther than beta r from all points";
+  p.minimum = 1;
+  p.maximum = 2;
+  p.exclusive_minimum = true;
+  p.fallback = "1.5";
+  return p;
+}
+
+TwoRadiiOptions two_radii_options(const Arguments& a) {
+  TwoRadiiOptions options;
+  options.radius = argument(a, "radius").value_or(options.radius);
+  options.beta = argument(a, "beta").value_or(options.beta);
+  return options;
+}
+
 Parameter beta(const std::string& fallback) {
   return {"beta",
           Parameter::Type::number,
@@ -73,7 +94,12 @@ Parameter beta(const std::string& fallback) {
           "no point set in the plane has beta below 1/sqrt(3) = 0.57735, that of the triangular lattice"};
 }
 
-const std::string nearest_lattice = "the nearest lattice that fits the torus decides, see n";
+Parameter even_count() {
+  Parameter p = count(true);
+  p.description += ", even: a honeycomb has two points a cell";
+  p.minimum = 2;
+  return p;
+}
 
 double counted(const Domain&, const Arguments& a) { return argument(a, "count").value(); }
 
@@ -82,32 +108,18 @@ PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, R
   return lattice(torus_of(domain), count_of(a), control);
 }
 
-/// The conflict radius of about `count` points, at most the largest one that a sampling can have. Where it is
-/// above the shorter side, points follow each other as on a line, n r = 0.7476 of its length (Renyi's parking
-/// constant).
-double radius_of_count(const Torus& torus, double count) {
-  constexpr double parking = 0.7476;
-  // Two at least: a radius of half the diagonal leaves a gap of no size, which takes long to rule out on a
-  // thin torus.
-  const double on_line = parking * std::max(torus.width(), torus.height()) / std::max(2.0, count);
-  const double farthest = norm(torus.box().size) / 2;
-  return std::min(std::max(poisson_disk_radius(torus.area(), static_cast<std::uint64_t>(count)), on_line),
-                  farthest);
-}
-
 const std::vector<Generator> generator_rows = {
     {{"poisson-disk",
       "Maximal Poisson-disk sampling",
       "Random points, none nearer than r to another, and no room for one more: beta <= 1.",
       "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
-      {count("r follows from n r^2 = 0.6966 A, so n is within 1% of it from 10,000 points on", false),
-       radius()}},
+      {count(false), radius()}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
-       return poisson_disk(torus, {r ? *r : radius_of_count(*torus, argument(a, "count").value())}, rng,
-                           control);
+       return r ? poisson_disk(torus, {*r}, rng, control)
+                : poisson_disk_of_count(torus, count_of(a), rng, control);
      },
      [](const Domain& domain, const Arguments& a) {
        const auto r = argument(a, "radius");
@@ -117,11 +129,32 @@ const std::vector<Generator> generator_rows = {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
      {5e-6, 180}},
+    {{"two-radii",
+      "Two-radii Poisson-disk sampling",
+      "Random points, none nearer than r to another, no place farther than beta r from all: between "
+      "poisson-disk and white noise.",
+      "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
+      {count(false), radius(), coverage_ratio()}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       const auto torus = torus_of(domain);
+       const TwoRadiiOptions options = two_radii_options(a);
+       return argument(a, "radius") ? two_radii(torus, options, rng, control)
+                                    : two_radii_of_count(torus, count_of(a), options, rng, control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       return argument(a, "radius") ? two_radii_count(domain.area(), two_radii_options(a))
+                                    : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {1e-5, 260}},
     {{"white-noise",
       "White noise",
       "Independent uniform points: what nothing is spaced looks like.",
       "",
-      {count("exact", true)}},
+      {count(true)}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        return white_noise(std::move(domain), count_of(a), rng, control);
@@ -131,9 +164,9 @@ const std::vector<Generator> generator_rows = {
      {1e-7, 64}},
     {{"jittered",
       "Jittered grid",
-      "One uniform point in each cell of a grid of squares.",
+      "One uniform point in each of as many rectangles of equal area, row by row.",
       "",
-      {count("the nearest grid of columns x rows decides, see n", true)}},
+      {count(true)}},
      true,
      [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
        return jittered(torus_of(domain), count_of(a), rng, control);
@@ -141,32 +174,59 @@ const std::vector<Generator> generator_rows = {
      counted,
      nullptr,
      {1e-7, 64}},
+    {{"delaunay-refinement",
+      "Delaunay refinement",
+      "The circumcenter of the largest Delaunay triangle becomes a point until none is larger than r, which "
+      "is "
+      "also the least distance: beta <= 1, and no randomness.",
+      "Chew, Guaranteed-Quality Triangular Meshes, 1989",
+      {count(false), radius()}},
+     false,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+       const auto torus = torus_of(domain);
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement(torus, *r, control)
+                : delaunay_refinement_of_count(torus, count_of(a), control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement_count(domain.area(), *r) : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {1e-5, 200}},
     {{"triangular",
       "Triangular lattice",
-      "The best possible spacing, beta = 1/sqrt(3), and no randomness.",
+      "The best possible spacing and no randomness: the least stretched lattice of that many points, beta = "
+      "1/sqrt(3) where one fits.",
       "",
-      {count(nearest_lattice, true)}},
+      {count(true)}},
      false,
      run_lattice<triangular_lattice>,
      counted,
      nullptr,
-     {1e-7, 64}},
-    {{"square", "Square lattice", "beta = 1/sqrt(2).", "", {count(nearest_lattice, true)}},
+     {3e-7, 64}},
+    {{"square",
+      "Square lattice",
+      "The least stretched lattice of that many points: beta = 1/sqrt(2) where one fits.",
+      "",
+      {count(true)}},
      false,
      run_lattice<square_lattice>,
      counted,
      nullptr,
-     {1e-7, 64}},
+     {3e-7, 64}},
     {{"hexagonal",
       "Hexagonal lattice (honeycomb)",
-      "The corners of regular hexagons: beta = 1.",
+      "The corners of the least stretched hexagons, an even number: beta = 1 where they fit.",
       "",
-      {count(nearest_lattice, true)}},
+      {even_count()}},
      false,
      run_lattice<hexagonal_lattice>,
      counted,
-     nullptr,
-     {1e-7, 64}},
+     [](const Domain&, const Arguments& a) { require_even(count_of(a)); },
+     {3e-7, 64}},
 };
 
 OptBetaLocalOptions opt_beta_local_options(const Arguments& a) {

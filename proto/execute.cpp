@@ -6,6 +6,7 @@
 
 #include "core/analyze/certificate.h"
 #include "core/analyze/spacing.h"
+#include "core/generate/enrich.h"
 #include "core/generate/generate.h"
 #include "proto/measures.h"
 
@@ -120,10 +121,22 @@ ordered_json converged(const OptimizeResult& result, const Arguments& arguments,
   return *result.converged && (!target || (proof && proof->beta_upper <= *target));
 }
 
+/// What the optimizer starts from, and how many points were inserted for that.
+std::pair<PointSet, std::size_t> input_of(const OptimizeRequest& request, Control& control) {
+  Part first(control, 0, 0.5), second(control, 0.5, 1);
+  PointSet points = points_of(request.points, first);
+  return at("/points", [&] {
+    require_usable(points, control);
+    if (!request.enrich) return std::pair(std::move(points), std::size_t{0});
+    PointSet enriched = enrich(points, enrichment_coverage(points, control), second);
+    const std::size_t inserted = enriched.size() - points.size();
+    return std::pair(std::move(enriched), inserted);
+  });
+}
+
 Result run(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.02), second(control, 0.02, 0.98);
-  const PointSet input = points_of(request.points, first);
-  at("/points", [&] { require_usable(input, control); });
+  const auto [input, inserted] = input_of(request, first);
   OptimizeResult optimized = optimize(request, input, second);
   const Spacing s = measure_spacing(optimized.points, control);
   const std::optional<Certificate> proof = certify(optimized.points, control);
@@ -138,6 +151,7 @@ Result run(const OptimizeRequest& request, Control& control) {
                     {"beta_i_max", s.beta_i_max},
                     {"beta_i_mean", s.beta_i_mean},
                     {"sweeps", optimized.sweeps}};
+  if (request.enrich) result.summary["enriched"] = inserted;
   result.summary.update(certificate_to_json(proof));
   result.summary["converged"] = converged(optimized, request.arguments, proof);
   result.summary["history"] = history_to_json(optimized.history);

@@ -70,6 +70,14 @@ std::optional<std::string> Fields::text(const std::string& name) {
               pointer_to(name));
 }
 
+std::optional<bool> Fields::flag(const std::string& name) {
+  const auto* value = find(name);
+  if (value == nullptr) return {};
+  if (value->is_boolean()) return value->get<bool>();
+  throw Error(ErrorCode::invalid_parameters, "expected true or false, found " + describe(*value),
+              pointer_to(name));
+}
+
 std::optional<double> Fields::number(const std::string& name) {
   const auto* value = find(name);
   if (value == nullptr) return {};

@@ -26,6 +26,7 @@ class Fields {
   const nlohmann::json& require(const std::string& name, std::string_view what);
 
   std::optional<std::string> text(const std::string& name);
+  std::optional<bool> flag(const std::string& name);
   std::optional<double> number(const std::string& name);
   /// A whole number in [0, 2^64); "10.0" and "1e3" are whole, too.
   std::optional<std::uint64_t> whole(const std::string& name);

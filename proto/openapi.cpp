@@ -141,6 +141,7 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
           schemas[p.name].erase("default");  // it depends on the method
       }
     for (const auto& [name, schema] : schemas.items()) add(name, schema);
+    add("enrich", enrich_schema());
   } else {
     ordered_json names = openapi_schemas()["AnalyzeRequest"]["properties"]["measures"];
     add("measures", std::move(names));

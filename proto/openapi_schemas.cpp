@@ -132,6 +132,8 @@ void add_results(ordered_json& schemas) {
   const ordered_json proven = certificate_schema();
   for (const auto& [name, schema] : proven["properties"].items()) optimize[name] = schema;
   optimize["sweeps"] = typed("integer", "done in all; the best state may be an earlier one");
+  optimize["enriched"] =
+      typed("integer", "points inserted at the end of the input, where that was asked for");
   optimize["converged"] = {
       {"type", {"boolean", "null"}},
       {"description",
@@ -187,6 +189,17 @@ ordered_json problem_schema() {
 
 }  // namespace
 
+ordered_json enrich_schema() {
+  return {
+      {"type", "boolean"},
+      {"default", false},
+      {"description",
+       "First fill the holes of a set with beta above 1: points are inserted in the middle of the deepest "
+       "ones "
+       "until the coverage radius is that of maximal Poisson-disk sampling with as many points as were "
+       "brought, sqrt(0.6966 area / n). They come after the others, of which output i is input i moved."}};
+}
+
 ordered_json schema_reference(const std::string& name) { return {{"$ref", "#/components/schemas/" + name}}; }
 
 ordered_json openapi_schemas() {
@@ -204,7 +217,9 @@ ordered_json openapi_schemas() {
   const ordered_json worked_on = {{"points", schema_reference("PointSource")},
                                   {"domain", schema_reference("Domain")},
                                   {"picture", picture_schema()}};
-  add_methods(schemas, "OptimizeRequest", optimizers(), worked_on);
+  ordered_json optimize = worked_on;
+  optimize["enrich"] = enrich_schema();
+  add_methods(schemas, "OptimizeRequest", optimizers(), optimize);
   ordered_json names = ordered_json::array();
   for (const Measure& m : measures()) names.push_back(m.name);
   ordered_json analyze = worked_on;

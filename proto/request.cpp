@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/domain/torus.h"
+#include "core/generate/enrich.h"
+#include "core/generate/generate.h"
 #include "proto/arguments.h"
 #include "proto/fields.h"
 #include "proto/formats/media.h"
@@ -29,8 +31,9 @@ json scalar_from_text(const std::string& text) {
   return value.is_number() ? value : json(text);
 }
 
-/// The one parameter that is a list: measures=a,b
+/// measures=a,b is a list, enrich=true no text; both are the only ones of their kind.
 json value_from_text(const std::string& name, const std::string& text) {
+  if (name == "enrich" && (text == "true" || text == "false")) return text == "true";
   if (name != "measures") return scalar_from_text(text);
   json list = json::array();
   std::size_t from = 0;
@@ -210,6 +213,34 @@ PointSource point_source(Fields& fields, Document& document, std::uint64_t limit
   return source;
 }
 
+double source_points(const PointSource& source) {
+  if (const auto* points = std::get_if<PointSet>(&source)) return static_cast<double>(points->size());
+  const auto& generate = std::get<GenerateRequest>(source);
+  return generate.method->expected_count(*generate.domain, generate.arguments);
+}
+
+const Domain& source_domain(const PointSource& source) {
+  const auto* points = std::get_if<PointSet>(&source);
+  return points != nullptr ? *points->domain : *std::get<GenerateRequest>(source).domain;
+}
+
+double worked_on_points(const OptimizeRequest& request) {
+  const double n = source_points(request.points);
+  if (!request.enrich) return n;
+  const Domain& domain = source_domain(request.points);
+  return n + most_inserted(domain, radius_for_count(domain, std::max(1.0, n)));
+}
+
+void require_room_to_enrich(const OptimizeRequest& request, std::uint64_t limit) {
+  const double most = worked_on_points(request);
+  if (most <= static_cast<double>(limit)) return;
+  throw Error(ErrorCode::too_large,
+              "with its holes filled the set may have up to " + number_text(std::round(most)) +
+                  " points, but the limit here is " + std::to_string(limit) +
+                  "; bring fewer points, or leave enrich out",
+              "/enrich");
+}
+
 OptimizeRequest optimize_request(Fields& fields, Document& document, const Limits& limits,
                                  const JobPoints& job_points) {
   OptimizeRequest request;
@@ -218,8 +249,10 @@ OptimizeRequest optimize_request(Fields& fields, Document& document, const Limit
       &find_row(optimizers(), fields.text("method").value_or(optimizers().front().name), "/method");
   fields.find("points");
   fields.find("domain");
+  request.enrich = fields.flag("enrich").value_or(false);
   request.arguments = read_arguments(*request.method, fields);
   request.points = point_source(fields, document, limits.optimize_points, job_points);
+  if (request.enrich) require_room_to_enrich(request, limits.optimize_points);
   return request;
 }
 
@@ -253,12 +286,6 @@ AnalyzeRequest analyze_request(Fields& fields, Document& document, const Limits&
   fields.refuse_unknown();
   request.points = point_source(fields, document, limits.analyze_points, job_points);
   return request;
-}
-
-double source_points(const PointSource& source) {
-  if (const auto* points = std::get_if<PointSet>(&source)) return static_cast<double>(points->size());
-  const auto& generate = std::get<GenerateRequest>(source);
-  return generate.method->expected_count(*generate.domain, generate.arguments);
 }
 
 Cost times(double n, Cost cost) { return {n * cost.seconds, n * cost.bytes}; }
@@ -315,7 +342,7 @@ Request read_request(const RawRequest& raw, const Limits& limits, const JobPoint
 
 double expected_points(const Request& request) {
   if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
-    return source_points(optimize->points);
+    return worked_on_points(*optimize);
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation))
     return source_points(analyze->points);
   const auto& generate = std::get<GenerateRequest>(request.operation);
@@ -323,11 +350,12 @@ double expected_points(const Request& request) {
 }
 
 Cost expected_cost(const Request& request) {
-  constexpr Cost writing = {3e-7, 200};  // a point of the result, as text at worst
+  constexpr Cost writing = {3e-7, 200};    // a point of the result, as text at worst
+  constexpr Cost enriching = {8e-6, 300};  // a point that there is in the end
   const double n = expected_points(request);
   if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
-    return source_cost(optimize->points) + times(n, optimize->method->cost_a_point(optimize->arguments)) +
-           times(n, writing);
+    return source_cost(optimize->points) + times(optimize->enrich ? n : 0, enriching) +
+           times(n, optimize->method->cost_a_point(optimize->arguments)) + times(n, writing);
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
     Cost cost = source_cost(analyze->points);
     for (const Measure* measure : analyze->measures) cost = cost + times(n, measure->cost_a_point);

@@ -39,6 +39,7 @@ struct OptimizeRequest {
   PointSource points;
   const Optimizer* method = nullptr;
   Arguments arguments;
+  bool enrich = false;  ///< fill the holes of the points first
 };
 
 struct AnalyzeRequest {
@@ -62,7 +63,7 @@ using JobPoints = std::function<PointSet(const std::string& id)>;
 /// in the body, O(n log n) in inline points.
 Request read_request(const RawRequest& raw, const Limits& limits, const JobPoints& job_points);
 
-/// How many points the request works on, about.
+/// How many points the request works on, about; the most that there can be where holes are filled.
 double expected_points(const Request& request);
 
 /// The most it will take, about. Errors of require_affordable: too_large if that is above

@@ -2,92 +2,149 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <vector>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
 
 namespace wellspaced {
 namespace {
 
-/// Puts `motif` (in units of a cell) into each cell of the grid, one row of the motif's points after the
-/// other.
-PointSet tile(const std::shared_ptr<const Torus>& torus, GridShape grid,
-              std::span<const std::vector<Vec2>> motif_rows, Control& control) {
-  PointSet points{torus, {}};
-  const double w = torus->width() / static_cast<double>(grid.columns);
-  const double h = torus->height() / static_cast<double>(grid.rows);
-  for (std::uint64_t row = 0; row < grid.rows; ++row) {
-    control.check();
-    for (const auto& motif : motif_rows)
-      for (std::uint64_t column = 0; column < grid.columns; ++column)
-        for (const Vec2 at : motif)
-          points.push_back({wrap((static_cast<double>(column) + at.x) * w, torus->width()),
-                            wrap((static_cast<double>(row) + at.y) * h, torus->height()), 0});
+/// The lattice of rows * columns points, row j shifted by j * shift / (rows * columns) of the width: one
+/// Hermite normal form.
+struct LatticeForm {
+  std::uint64_t rows = 1, columns = 1, shift = 0;
+};
+
+/// Two shortest vectors of a lattice, u no longer than v, dot(u, v) >= 0.
+struct Basis {
+  Vec2 u, v;
+};
+
+/// The shape that is wanted: stretch is 1 for it, and more for every other one.
+enum class Shape { square, triangular };
+
+/// Mean square of the singular values of the linear map from the ideal cell to this one, areas being equal.
+double stretch(const Basis& b, Shape shape, double cell_area) {
+  const double two_sides = norm2(b.u) + norm2(b.v);
+  if (shape == Shape::square) return two_sides / (2 * cell_area);
+  return (two_sides + norm2(b.v - b.u)) / (std::sqrt(12.0) * cell_area);
+}
+
+/// Lagrange's reduction, until the basis is shortest or one of its vectors is shorter than `too_short`.
+Basis reduce(Vec2 u, Vec2 v, double too_short2) {
+  for (;;) {
+    if (norm2(v) < norm2(u)) std::swap(u, v);
+    if (norm2(u) < too_short2) break;
+    const Vec2 next = v - std::floor(dot(u, v) / norm2(u) + 0.5) * u;
+    if (!(norm2(next) < norm2(v))) break;  // not shorter, be it by rounding alone
+    v = next;
   }
+  if (dot(u, v) < 0) v = -1 * v;
+  return {u, v};
+}
+
+class BestLattice {
+ public:
+  BestLattice(const Torus& torus, std::uint64_t count, Shape shape)
+      : torus_(torus), count_(count), shape_(shape), cell_area_(torus.area() / static_cast<double>(count)) {}
+
+  LatticeForm find(Control& control) {
+    for (std::uint64_t rows = 1; rows <= count_; ++rows) {
+      if (rows % 65536 == 0) control.check();
+      if (count_ % rows == 0) try_rows(rows, control);
+    }
+    return best_;
+  }
+
+  Basis basis(const LatticeForm& form) const { return reduce(column(form.columns), row(form), 0); }
+
+ private:
+  Vec2 column(std::uint64_t columns) const { return {torus_.width() / static_cast<double>(columns), 0}; }
+  Vec2 row(const LatticeForm& form) const {
+    return {torus_.width() * (static_cast<double>(form.shift) / static_cast<double>(count_)),
+            torus_.height() / static_cast<double>(form.rows)};
+  }
+
+  void try_rows(std::uint64_t rows, Control& control) {
+    LatticeForm form{rows, count_ / rows, 0};
+    const Vec2 u = column(form.columns);
+    for (; form.shift < rows; ++form.shift) {
+      if (form.shift % 16384 == 0) control.check();
+      const double s = stretch(reduce(u, row(form), too_short2_), shape_, cell_area_);
+      if (!(s < least_ * (1 - 1e-12))) continue;  // of equal ones the first
+      least_ = s;
+      best_ = form;
+      // With a vector u the other one is at least area / |u| long, which makes the stretch of either shape at
+      // least area / (2 |u|^2).
+      too_short2_ = 0.5 * cell_area_ / least_;
+    }
+  }
+
+  const Torus& torus_;
+  std::uint64_t count_;
+  Shape shape_;
+  double cell_area_, least_ = INFINITY, too_short2_ = 0;
+  LatticeForm best_;
+};
+
+/// Calls put(x, y) for each point of the lattice, row by row, from left to right.
+template <class Put>
+void visit_lattice(const Torus& torus, const LatticeForm& form, Control& control, const Put& put) {
+  const auto count = static_cast<double>(form.rows * form.columns);
+  std::uint64_t start = 0, seen = 0;  // in units of width / count
+  for (std::uint64_t j = 0; j < form.rows; ++j) {
+    const double y = torus.height() * (static_cast<double>(j) / static_cast<double>(form.rows));
+    for (std::uint64_t i = 0; i < form.columns; ++i) {
+      if (++seen % 65536 == 0) control.check();
+      put(torus.width() * (static_cast<double>(start + i * form.rows) / count), y);
+    }
+    start = (start + form.shift) % form.rows;
+  }
+}
+
+PointSet lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Shape shape,
+                 Control& control) {
+  PointSet points{torus, {}};
+  const LatticeForm form = BestLattice(*torus, count, shape).find(control);
+  points.coordinates.reserve(2 * count);
+  visit_lattice(*torus, form, control, [&](double x, double y) { points.push_back({x, y, 0}); });
   return points;
 }
 
 }  // namespace
 
-GridShape fit_grid(const Torus& torus, double cells, double cell_aspect) {
-  // Along the axis with fewer cells every number near the ideal one is tried; the other axis makes up the
-  // count.
-  const double ideal_rows = std::sqrt(cells * torus.height() / (torus.width() * cell_aspect));
-  const bool few_rows = ideal_rows * ideal_rows <= cells;
-  const double ideal = few_rows ? ideal_rows : cells / ideal_rows;
-  GridShape best;
-  double best_cost = INFINITY;
-  const double from = std::max(1.0, std::floor(ideal * 0.9) - 1), to = std::ceil(ideal * 1.1) + 1;
-  for (double few = from; few <= to; ++few) {
-    for (const double many : {std::floor(cells / few), std::ceil(cells / few)}) {
-      if (many < 1) continue;
-      const double rows = few_rows ? few : many, columns = few_rows ? many : few;
-      const double stretch = torus.height() / rows / (torus.width() / columns * cell_aspect);
-      // Ratios stand in for logarithms: max(t, 1/t) - 1 is |log t| to first order, and needs no libm.
-      const auto off = [](double t) { return std::max(t, 1 / t) - 1; };
-      const double cost = off(columns * rows / cells) + off(stretch);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = {static_cast<std::uint64_t>(columns), static_cast<std::uint64_t>(rows)};
-      }
-    }
-  }
-  return best;
-}
-
 PointSet triangular_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
                             Control& control) {
-  // A cell holds two rows: spacing a wide, sqrt(3) a high.
-  const GridShape grid = fit_grid(*torus, static_cast<double>(count) / 2, std::sqrt(3.0));
-  const std::vector<Vec2> rows[] = {{{0, 0}}, {{0.5, 0.5}}};
-  return tile(torus, grid, rows, control);
+  return lattice(torus, count, Shape::triangular, control);
 }
 
 PointSet square_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Control& control) {
-  const std::vector<Vec2> rows[] = {{{0, 0}}};
-  return tile(torus, fit_grid(*torus, static_cast<double>(count), 1), rows, control);
+  return lattice(torus, count, Shape::square, control);
+}
+
+void require_even(std::uint64_t count) {
+  if (count % 2 == 0) return;
+  throw Error(ErrorCode::infeasible,
+              "a honeycomb has two points a cell, so an odd number of them is impossible; ask for " +
+                  std::to_string(count - 1) + " or " + std::to_string(count + 1),
+              "/count");
 }
 
 PointSet hexagonal_lattice(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Control& control) {
-  // A cell holds four corners of hexagons with side s: sqrt(3) s wide, 3 s high.
-  const GridShape grid = fit_grid(*torus, static_cast<double>(count) / 4, std::sqrt(3.0));
-  const std::vector<Vec2> rows[] = {{{0, 0}}, {{0.5, 1.0 / 6}}, {{0.5, 0.5}}, {{0, 2.0 / 3}}};
-  return tile(torus, grid, rows, control);
-}
-
-PointSet jittered(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng,
-                  Control& control) {
-  const GridShape grid = fit_grid(*torus, static_cast<double>(count), 1);
+  require_even(count);
+  BestLattice best(*torus, count / 2, Shape::triangular);
+  const LatticeForm form = best.find(control);
+  const Basis b = best.basis(form);
+  // The lattice's own points and the middles of one of the two triangles of each cell; in the middles of the
+  // others are the hexagons' centers.
+  const Vec2 second = (1.0 / 3) * (b.u + b.v);
   PointSet points{torus, {}};
-  const double w = torus->width() / static_cast<double>(grid.columns);
-  const double h = torus->height() / static_cast<double>(grid.rows);
-  for (std::uint64_t row = 0; row < grid.rows; ++row) {
-    control.check();
-    for (std::uint64_t column = 0; column < grid.columns; ++column) {
-      const double x = (static_cast<double>(column) + rng.uniform()) * w;
-      const double y = (static_cast<double>(row) + rng.uniform()) * h;
-      points.push_back({wrap(x, torus->width()), wrap(y, torus->height()), 0});
-    }
-  }
+  points.coordinates.reserve(2 * count);
+  visit_lattice(*torus, form, control, [&](double x, double y) {
+    points.push_back({x, y, 0});
+    points.push_back({wrap(x + second.x, torus->width()), wrap(y + second.y, torus->height()), 0});
+  });
   return points;
 }
 

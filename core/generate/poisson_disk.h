@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "core/control.h"
@@ -33,5 +34,18 @@ void require_radius(const Domain& domain, double radius);
 /// Sampling in High Dimensions", 2012. The base cell has side r/sqrt(2), so that it holds at most one sample.
 PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,
                       Control& control);
+
+/// The same with exactly `count` points, at least 1: a sampling of about three standard deviations fewer
+/// points, to which farthest-point insertion adds those that are missing, 0.75 sqrt(count) of them.
+///
+/// Guarantees
+/// 1. Exactly `count` points.
+/// 2. They are maximal for r = r_f: r_c <= r_f (1 + 1e-9), so beta <= 1 + 1e-9, whatever `count` is.
+/// 3. Order: row by row, as above.
+/// Not guaranteed: that all are unbiased; the ones added stand in the middle of holes. r is not chosen but
+/// found: n r^2 is 1% less than that of `poisson_disk` at 400 points, 0.1% less at 10,000.
+/// Errors: cancelled, deadline_exceeded. Cost: as poisson_disk; one in a thousand sets takes a second try.
+PointSet poisson_disk_of_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng,
+                               Control& control);
 
 }  // namespace wellspaced

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sort.h"
+
 namespace wellspaced {
 namespace {
 
@@ -18,10 +20,10 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
   farthest_reach_ = 2 * norm(points.domain->box().size);
 }
 
-void CellFinder::load(std::uint32_t i) {
+void CellFinder::load(std::uint32_t i, double reach) {
   self_ = i;
   base_ = (*points_)[i];
-  gather(first_reach_);
+  gather(reach);
 }
 
 void CellFinder::gather(double reach) {
@@ -30,10 +32,14 @@ void CellFinder::gather(double reach) {
   grid_->gather(base_, self_, reach, neighbors_);
   // Near ones first: they cut most, and the rest is then rejected in O(1). Ties by id keep the order one for
   // all.
-  std::sort(neighbors_.begin(), neighbors_.end(), [](const Neighbor& a, const Neighbor& b) {
+  const auto nearer = [](const Neighbor& a, const Neighbor& b) {
     const double a2 = norm2(a.offset), b2 = norm2(b.offset);
     return a2 != b2 ? a2 < b2 : a.id < b.id;
-  });
+  };
+  if (neighbors_.size() < crowd)
+    std::sort(neighbors_.begin(), neighbors_.end(), nearer);
+  else
+    sort(neighbors_.begin(), neighbors_.end(), *control_, nearer);
   half_planes_.resize(neighbors_.size());
 }
 

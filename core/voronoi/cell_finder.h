@@ -25,8 +25,9 @@ class CellFinder {
   /// cancelled, deadline_exceeded.
   CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control);
 
-  /// Turns to sample i at its present position.
-  void load(std::uint32_t i);
+  /// Turns to sample i at its present position; `reach` where more is known than in general.
+  void load(std::uint32_t i) { load(i, first_reach_); }
+  void load(std::uint32_t i, double reach);
 
   struct Radii {
     double r_f = 0;  ///< distance to the nearest other sample

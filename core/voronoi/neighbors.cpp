@@ -103,6 +103,12 @@ void NeighborGrid::move(std::uint32_t i, Vec3 from, Vec3 to) {
   first_[new_cell] = i;
 }
 
+void NeighborGrid::add(std::uint32_t i) {
+  std::uint32_t& first = first_[cell_of((*points_)[i])];
+  next_.push_back(first);
+  first = i;
+}
+
 std::size_t NeighborGrid::fullest_cell() const {
   std::size_t most = 0;
   for (std::uint32_t i : first_) {

@@ -10,12 +10,12 @@
 namespace wellspaced {
 
 /// A uniform grid over a point set that answers "who is within this distance", periodic images included,
-/// while points move.
+/// while points move and are added.
 ///
 /// Guarantees: `gather` finds every image of every sample whose offset is at most `reach` long, whatever the
 /// ratio of reach to period; ghost images are offsets, never rounded copies of coordinates. Cost: built in
 /// O(n); gather in O(cells + points within reach). Thread safety: const calls from many threads; `move`
-/// excludes everything else.
+/// and `add` exclude everything else.
 class NeighborGrid {
  public:
   /// Cells of about `cell` on a side. Requires: points are in their domain; cell > 0; points outlives the
@@ -28,6 +28,9 @@ class NeighborGrid {
 
   /// Tells the grid that sample i, last known at `from`, is now at `to`.
   void move(std::uint32_t i, Vec3 from, Vec3 to);
+
+  /// Tells the grid of sample i, the next one after those it knows, just appended to the points.
+  void add(std::uint32_t i);
 
   /// Number of samples in the fullest cell.
   std::size_t fullest_cell() const;

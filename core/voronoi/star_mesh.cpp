@@ -32,7 +32,7 @@ double to_length(std::uint32_t x, double period) {
   throw Error(ErrorCode::degenerate_input,
               why +
                   "; start from a point set that is spread over its domain, such as "
-                  "poisson-disk gives, or use opt-beta");
+                  "poisson-disk gives, fill them with enrich, or use opt-beta");
 }
 
 }  // namespace

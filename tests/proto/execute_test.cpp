@@ -44,12 +44,36 @@ TEST(Execute, GeneratorsWithoutRandomnessTellNoSeed) {
   EXPECT_FALSE(result.summary.contains("seed"));
 }
 
-TEST(Execute, EveryGeneratorMakesAboutWhatItExpects) {
+TEST(Execute, EveryGeneratorMakesWhatItExpects) {
   for (const Generator& generator : generators()) {
     const Result result =
         run("generate", R"({"count":2000,"domain":{"width":2},"method":")" + generator.name + "\"}");
-    EXPECT_NEAR(static_cast<double>(result.points.size()), 2000, 60) << generator.name;
+    EXPECT_EQ(result.points.size(), 2000u) << generator.name;
     EXPECT_EQ(result.summary["method"], generator.name);
+  }
+}
+
+TEST(Execute, EnrichFillsHolesBeforeItOptimizes) {
+  const std::string points = R"({"points":{"generate":{"method":"white-noise","count":300}})";
+  const Result plain = run("optimize", points + R"(,"beta":0.9,"max_visits":1})");
+  EXPECT_FALSE(plain.summary.contains("enriched"));
+  EXPECT_EQ(run("optimize", points + R"(,"beta":0.9,"max_visits":1,"enrich":false})").summary, plain.summary);
+  const Result result = run("optimize", points + R"(,"beta":0.9,"max_visits":1,"enrich":true})");
+  const std::size_t inserted = result.summary["enriched"];
+  EXPECT_GT(inserted, 30u);
+  EXPECT_EQ(result.points.size(), 300 + inserted);
+  EXPECT_EQ(result.summary["n"], 300 + inserted);
+  EXPECT_FALSE(result.summary["parameters"].contains("enrich"));
+  EXPECT_LE(result.summary["history"][0][2].get<double>(), std::sqrt(0.6966 / 300) * (1 + 1e-9));
+  EXPECT_GT(plain.summary["history"][0][2].get<double>(), std::sqrt(0.6966 / 300));
+}
+
+TEST(Execute, EnrichLeavesMaximalSetsAlone) {
+  for (const std::string method : {"poisson-disk", "delaunay-refinement", "square"}) {
+    const std::string source = R"({"points":{"generate":{"count":256,"method":")" + method + R"("}})";
+    const Result result = run("optimize", source + R"(,"method":"opt-beta","beta":0.9,"enrich":true})");
+    EXPECT_EQ(result.summary["enriched"], 0) << method;
+    EXPECT_EQ(result.points.size(), 256u) << method;
   }
 }
 

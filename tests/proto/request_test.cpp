@@ -53,7 +53,7 @@ TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
        "known here are: count, domain, method"},
       {"generate", R"({"cuont":10})", invalid, "/cuont", "count"},
       {"generate", R"({"method":"dart","count":10})", invalid, "/method",
-       "poisson-disk, white-noise, jittered"},
+       "poisson-disk, two-radii, white-noise, jittered"},
       {"generate", R"({"method":"white-noise","radius":0.1})", invalid, "/radius", "known here are: count"},
       {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type", "torus"},
       {"generate", R"({"count":10,"domain":{"depth":1}})", invalid, "/domain/depth", "height, type, width"},
@@ -115,6 +115,12 @@ TEST(ReadRequest, RefusesCountsOutsideTheirRange) {
       {"generate", R"({"count":1e300})", invalid, "/count", "up to 1000000000000000; found 1e+300"},
       {"generate", R"({"count":10000001})", ErrorCode::too_large, "/count",
        "10000001 points are asked for, but the limit here is 10000000"},
+      {"generate", R"({"method":"hexagonal","count":101})", ErrorCode::infeasible, "/count", "100 or 102"},
+      {"generate", R"({"method":"two-radii","count":10,"beta":1})", invalid, "/beta", "in (1, 2]"},
+      {"generate", R"({"method":"two-radii","count":10,"beta":2.1})", invalid, "/beta", "in (1, 2]"},
+      {"generate", R"({"method":"two-radii","radius":0.8})", ErrorCode::infeasible, "/radius", "0.707"},
+      {"generate", R"({"method":"delaunay-refinement","radius":0.8})", ErrorCode::infeasible, "/radius",
+       "0.707"},
       {"generate", R"({"method":"square","count":20000000})", ErrorCode::too_large, "/count",
        "about 20000000 points"},
       {"generate", R"({"radius":1e-5})", ErrorCode::too_large, "/radius", "6966000000 points"},
@@ -378,6 +384,39 @@ TEST(ReadRequest, ReadsTheSamePointsFromEveryFormat) {
     EXPECT_EQ(points.domain->box().size.x, 2);
     EXPECT_EQ(expected_points(request), 3);
   }
+}
+
+TEST(ReadRequest, TakesEnrichFromJsonAndFromTheQuery) {
+  const auto enrich = [](const Request& request) {
+    return std::get<OptimizeRequest>(request.operation).enrich;
+  };
+  const std::string points = R"({"points":[[0,0],[0.5,0.25],[0.1,0.5]])";
+  EXPECT_TRUE(enrich(read("optimize", points + R"(,"enrich":true})")));
+  EXPECT_FALSE(enrich(read("optimize", points + R"(,"enrich":false})")));
+  EXPECT_FALSE(enrich(read("optimize", points + "}")));
+  const std::string csv = "0,0\n0.5,0.25\n0.1,0.5\n";
+  EXPECT_TRUE(enrich(read_table("optimize", "text/csv", csv, {{"enrich", "true"}})));
+  EXPECT_FALSE(enrich(read_table("optimize", "text/csv", csv, {{"enrich", "false"}})));
+  expect_refusal(
+      [&] {
+        read_table("optimize", "text/csv", csv, {{"enrich", "yes"}});
+      },
+      {"optimize", "enrich=yes", invalid, "/enrich", "true or false"});
+  expect_refusals({{"optimize", points + R"(,"enrich":1})", invalid, "/enrich",
+                    "expected true or false, found the number 1"}});
+}
+
+TEST(ReadRequest, RefusesToEnrichWhereTheLimitMayBePassed) {
+  const auto enriching = [](int count) {
+    return R"({"points":{"generate":{"count":)" + std::to_string(count) +
+           R"(}},"method":"opt-beta","max_visits":1,"enrich":true})";
+  };
+  EXPECT_NEAR(expected_points(read("optimize", enriching(10000))), 26576, 1);
+  expect_refusals({{"optimize", enriching(4000000), ErrorCode::too_large, "/enrich", "leave enrich out"}});
+  EXPECT_GT(
+      expected_cost(read("optimize", enriching(10000))).bytes,
+      2 * expected_cost(read("optimize", R"({"points":{"generate":{"count":10000}},"method":"opt-beta"})"))
+              .bytes);
 }
 
 TEST(ReadRequest, TakesPointsAndDomainFromAJob) {

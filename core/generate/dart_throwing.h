@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/control.h"
+#include "core/domain/torus.h"
+#include "core/point_set.h"
+#include "core/rng.h"
+
+namespace wellspaced {
+
+/// What disk samplings keep: no two points nearer than `conflict`, no place farther than `coverage` from all
+/// of them. Requires: 0 < conflict <= coverage; conflict <= half the torus's diagonal.
+struct DiskRadii {
+  double conflict = 0, coverage = 0;
+};
+
+/// Darts into a flat quadtree of cells that no single disk covers, until none is left; then coverage is
+/// proven cell by cell from the Voronoi diagram, and gaps that rounding left are filled. The method behind
+/// `poisson_disk` and `two_radii`, whose headers say what holds.
+///
+/// A dart aims at a place that no sample covers. Where the radii are the same it becomes a sample there, else
+/// at a place drawn around it (where 16 draws conflict with samples: there).
+/// Order: row by row of the background grid. Errors: cancelled, deadline_exceeded.
+PointSet throw_darts(const std::shared_ptr<const Torus>& torus, const DiskRadii& radii, Rng& rng,
+                     Control& control);
+
+/// The same with exactly `count` points, at least 1, if `radii` are such that not many more are drawn: those
+/// that are missing are added by farthest-point insertion, which is the proof as well. Radii that give too
+/// many points are tried again, 1% larger. Guarantees: for r_f of the result, r_c is at most as many times
+/// larger as radii.coverage is than radii.conflict, or beta <= 1.
+PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
+                              const DiskRadii& radii, Rng& rng, Control& control);
+
+/// Three standard deviations below a count: from 10 points to a million, maximal samplings scatter by 0.17 to
+/// 0.25 sqrt(n) for a given radius (measured), so that one of so many expected points hardly has more.
+double count_below(double count);
+
+}  // namespace wellspaced
