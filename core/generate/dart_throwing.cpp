@@ -276,7 +276,9 @@ PointSet throw_darts(const std::shared_ptr<const Torus>& torus, const DiskRadii&
   return points;
 }
 
-double count_below(double count) { return std::max(1.0, count - 0.75 * std::sqrt(count)); }
+double count_below(double count, double scatter) {
+  return std::max(1.0, count - 2 * scatter * std::sqrt(count));
+}
 
 PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
                               const DiskRadii& radii, Rng& rng, Control& control) {
@@ -285,7 +287,8 @@ PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::ui
     return {torus, {only.x, only.y}};
   }
   const double farthest = norm(torus->box().size) / 2, beta = radii.coverage / radii.conflict;
-  for (double radius = radii.conflict;; radius = std::min(1.01 * radius, farthest)) {
+  double growth = 0.25 / std::sqrt(static_cast<double>(count));
+  for (double radius = radii.conflict;; radius = std::min((1 + growth) * radius, farthest), growth *= 2) {
     Sampler sampler(*torus, {radius, beta * radius}, rng, control);
     sampler.run();
     PointSet points = sampler.samples(torus);

@@ -59,7 +59,7 @@ class Inserter {
   void collect() {
     constexpr std::size_t block = 1024;  // divides the blocks in which stars are visited
     std::vector<std::vector<Hole>> found((points_.size() + block - 1) / block);
-    visit_stars(points_, control_, [&](std::size_t i, std::span<const Spoke> spokes) {
+    const auto visit = [&](std::size_t i, std::span<const Spoke> spokes) {
       for (std::size_t k = 0; k < spokes.size(); ++k) {
         const Spoke &a = spokes[k], &b = spokes[k + 1 == spokes.size() ? 0 : k + 1];
         if (a.id < i || b.id < i) continue;  // that one's star has it
@@ -68,7 +68,11 @@ class Inserter {
         if (depth > floor_ && std::isfinite(depth))
           found[i / block].push_back({depth, points_.domain->step(points_[i], center)});
       }
-    });
+    };
+    if (end_.shallowest > 0)
+      visit_stars_of_coverage(points_, end_.shallowest, control_, visit);
+    else
+      visit_stars(points_, control_, visit);
     for (const auto& part : found) holes_.insert(holes_.end(), part.begin(), part.end());
     std::make_heap(holes_.begin(), holes_.end(), comes_later);
   }

@@ -12,8 +12,8 @@ namespace wellspaced {
 struct FarthestPointEnd {
   std::size_t count = std::numeric_limits<std::size_t>::max();  ///< so many points
   double coverage = 0;                                          ///< r_c at most this, domain lengths
-  /// A guess: holes shallower than this won't be needed. A bad one costs time, and may decide between equally
-  /// deep holes.
+  /// A guess, for points that are spread out: holes shallower than this won't be needed, much deeper ones are
+  /// rare. A bad one costs time, and may decide between equally deep holes.
   double shallowest = 0;
 };
 

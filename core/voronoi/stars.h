@@ -33,6 +33,10 @@ void visit_stars(const PointSet& points, const Control& control, const StarVisit
 
 void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit);
 
+/// The same where the coverage radius is about known, in domain lengths: cheaper, and right for any.
+void visit_stars_of_coverage(const PointSet& points, double coverage, const Control& control,
+                             const StarVisitor& visit);
+
 /// Through CGAL's Delaunay triangulation of the points and as many of their images as prove to be needed.
 /// Sequential construction; also the oracle that the kernel is tested against.
 void visit_stars_by_cgal(const PointSet& points, const Control& control, const StarVisitor& visit);

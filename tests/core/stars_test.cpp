@@ -124,5 +124,16 @@ TEST(NeighborGrid, KeepsUpWithMovingPoints) {
   }
 }
 
+TEST(VisitStarsOfCoverage, IsRightWhateverTheCoverageIsSaidToBe) {
+  const PointSet points = random_points(2, 1, 300, 1);
+  for (const double coverage : {0.01, 0.1, 1.0}) {
+    SCOPED_TRACE(coverage);
+    expect_delaunay(points,
+                    collect_stars(points, [&](const PointSet& p, const Control& c, const StarVisitor& v) {
+                      visit_stars_of_coverage(p, coverage, c, v);
+                    }));
+  }
+}
+
 }  // namespace
 }  // namespace wellspaced
