@@ -93,8 +93,8 @@ class Inserter {
   /// The deepest hole above the floor, off the heap. Depths fall as points are inserted, and are looked at
   /// again when their turn comes.
   std::optional<Hole> deepest() {
-    for (std::size_t k = 1;; ++k) {
-      if (k % 256 == 0) control_.check();
+    for (;;) {
+      control_.check();  // a look into a crowd may take a while
       if (holes_.empty() && !lower_floor()) return std::nullopt;
       if (holes_.empty()) continue;
       std::pop_heap(holes_.begin(), holes_.end(), comes_later);
@@ -133,7 +133,6 @@ class Inserter {
   }
 
   void report(std::size_t first, double depth) {
-    control_.check();
     const double reached =
         end_.coverage / depth;  // as many points have that depth as its disk goes into the area
     double fraction = reached * reached;
