@@ -1,16 +1,19 @@
 #include "core/generate/dart_throwing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/generate/disk_tests.h"
 #include "core/generate/farthest_point.h"
 #include "core/generate/row_order.h"
-#include "core/parallel.h"
-#include "core/voronoi/cell_finder.h"
+#include "core/voronoi/cell.h"
+#include "core/voronoi/stars.h"
 
 namespace wellspaced {
 namespace {
@@ -44,7 +47,8 @@ class SampleGrid {
   SampleGrid(const Torus& torus, const DiskRadii& radii)
       : x(torus.width(), radii),
         y(torus.height(), radii),
-        table_(static_cast<std::size_t>(x.stride * y.stride), {empty, empty}) {
+        table_x_(static_cast<std::size_t>(x.stride * y.stride) + CellWindow::readable_beyond, empty),
+        table_y_(table_x_) {
     // Images are rounded copies: the radii are widened by what that can hide.
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(x.period, y.period);
     conflict2_ = (radii.conflict + rounding) * (radii.conflict + rounding);
@@ -53,37 +57,39 @@ class SampleGrid {
 
   const GridAxis x, y;
 
-  bool taken(std::int64_t i, std::int64_t j) const { return !std::isnan(at(i, j).x); }
-  Vec2 sample(std::int64_t i, std::int64_t j) const { return at(i, j); }
+  bool taken(std::int64_t i, std::int64_t j) const { return !std::isnan(table_x_[index(i, j)]); }
+  Vec2 sample(std::int64_t i, std::int64_t j) const { return {table_x_[index(i, j)], table_y_[index(i, j)]}; }
 
   void put(std::int64_t i, std::int64_t j, Vec2 p) {
     for (std::int64_t gj = j - y.cells * ((j + y.reach) / y.cells); gj < y.cells + y.reach; gj += y.cells)
       for (std::int64_t gi = i - x.cells * ((i + x.reach) / x.cells); gi < x.cells + x.reach; gi += x.cells)
-        table_[index(gi, gj)] = {p.x + static_cast<double>((gi - i) / x.cells) * x.period,
-                                 p.y + static_cast<double>((gj - j) / y.cells) * y.period};
+        put_image(index(gi, gj), {p.x + static_cast<double>((gi - i) / x.cells) * x.period,
+                                  p.y + static_cast<double>((gj - j) / y.cells) * y.period});
   }
 
   /// Whether a point of base cell (i, j) is nearer than the conflict radius to a sample.
   bool conflicts(std::int64_t i, std::int64_t j, Vec2 p) const {
-    return any_within(i, j, p, {x.near, y.near}, conflict2_);
+    return any_within(window(i, j, x.near, y.near), p, conflict2_);
   }
   /// Whether a sample covers it.
   bool covered(std::int64_t i, std::int64_t j, Vec2 p) const {
-    return any_within(i, j, p, {x.reach, y.reach}, coverage2_);
+    return any_within(window(i, j, x.reach, y.reach), p, coverage2_);
   }
 
-  /// Whether one sample's disk covers the whole square with that center and half-side.
-  bool covers(std::int64_t i, std::int64_t j, Vec2 center, Vec2 half) const {
-    for (std::int64_t gj = j - y.reach; gj <= j + y.reach; ++gj) {
-      const Vec2* row = &table_[index(i - x.reach, gj)];
-      bool hit = false;
-      for (std::int64_t k = 0; k <= 2 * x.reach; ++k) {
-        const Vec2 farthest{std::fabs(row[k].x - center.x) + half.x, std::fabs(row[k].y - center.y) + half.y};
-        hit |= norm2(farthest) < coverage2_;
-      }
-      if (hit) return true;
+  /// Which parts of base cell (i, j) are covered, each by one sample's disk.
+  std::uint32_t covers(std::int64_t i, std::int64_t j, const Quarters& parts) const {
+    return covered_quarters(window(i, j, x.reach, y.reach), parts, coverage2_);
+  }
+
+  /// Has what a query around base cell (i, j) reads on its way into the cache.
+  void prefetch(std::int64_t i, std::int64_t j) const {
+    const CellWindow w = window(i, j, x.reach, y.reach);
+    for (std::size_t row = 0; row < w.rows; ++row) {
+      __builtin_prefetch(w.x + row * w.stride);
+      __builtin_prefetch(w.x + row * w.stride + w.columns - 1);
+      __builtin_prefetch(w.y + row * w.stride);
+      __builtin_prefetch(w.y + row * w.stride + w.columns - 1);
     }
-    return false;
   }
 
   std::pair<std::int64_t, std::int64_t> cell_of(Vec2 p) const {
@@ -95,22 +101,18 @@ class SampleGrid {
   std::size_t index(std::int64_t i, std::int64_t j) const {
     return static_cast<std::size_t>((j + y.reach) * x.stride + i + x.reach);
   }
-  const Vec2& at(std::int64_t i, std::int64_t j) const { return table_[index(i, j)]; }
-
-  struct Reach {
-    std::int64_t x, y;
-  };
-  bool any_within(std::int64_t i, std::int64_t j, Vec2 p, Reach reach, double radius2) const {
-    for (std::int64_t gj = j - reach.y; gj <= j + reach.y; ++gj) {
-      const Vec2* row = &table_[index(i - reach.x, gj)];
-      bool hit = false;
-      for (std::int64_t k = 0; k <= 2 * reach.x; ++k) hit |= norm2(row[k] - p) < radius2;
-      if (hit) return true;
-    }
-    return false;
+  CellWindow window(std::int64_t i, std::int64_t j, std::int64_t reach_x, std::int64_t reach_y) const {
+    const std::size_t first = index(i - reach_x, j - reach_y);
+    return {&table_x_[first], &table_y_[first], static_cast<std::size_t>(x.stride),
+            static_cast<std::size_t>(2 * reach_x + 1), static_cast<std::size_t>(2 * reach_y + 1)};
   }
 
-  std::vector<Vec2> table_;
+  void put_image(std::size_t at, Vec2 p) {
+    table_x_[at] = p.x;
+    table_y_[at] = p.y;
+  }
+
+  std::vector<double> table_x_, table_y_;
   double conflict2_, coverage2_;
 };
 
@@ -169,21 +171,46 @@ class Sampler {
     return (grid_.x.cells << level_x_) < most && (grid_.y.cells << level_y_) < most;
   }
 
+  /// A place in a base cell.
+  struct Dart {
+    std::int64_t i, j;
+    Vec2 at;
+    bool inside;
+  };
+
+  /// Darts are drawn some time before they are thrown, so that memory can be fetched in between.
   void throw_darts() {
+    constexpr std::size_t batch = 64;
     const auto darts = static_cast<std::size_t>(darts_a_cell * static_cast<double>(active_.size())) + 1;
     const Vec2 size = side();
-    for (std::size_t t = 0; t < darts; ++t) {
-      if (t % darts_between_checks == 0) control_.check();
-      const ActiveCell c = active_[rng_.below(active_.size())];
-      const double u = rng_.uniform(), v = rng_.uniform();
-      const std::int64_t i = c.i >> level_x_, j = c.j >> level_y_;
-      if (grid_.taken(i, j)) continue;
-      // Rounding may lift the last cell's points onto the period, which is 0.
-      const Vec2 p{wrap((c.i + u) * size.x, grid_.x.period), wrap((c.j + v) * size.y, grid_.y.period)};
-      const bool wrapped = p.x < c.i * size.x || p.y < c.j * size.y;
-      if (wrapped || grid_.covered(i, j, p)) continue;
-      put(radii_.conflict < radii_.coverage ? drawn_near(p) : p);
+    std::array<Dart, batch> drawn;
+    for (std::size_t begin = 0; begin < darts; begin += batch) {
+      if (begin % darts_between_checks == 0) control_.check();
+      const std::size_t n = std::min(batch, darts - begin);
+      std::array<std::size_t, batch> cells;
+      for (std::size_t k = 0; k < n; ++k) {
+        cells[k] = rng_.below(active_.size());
+        __builtin_prefetch(&active_[cells[k]]);
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        drawn[k] = draw(active_[cells[k]], size);
+        grid_.prefetch(drawn[k].i, drawn[k].j);
+      }
+      for (std::size_t k = 0; k < n; ++k) throw_dart(drawn[k]);
     }
+  }
+
+  Dart draw(ActiveCell c, Vec2 size) {
+    const double u = rng_.uniform(), v = rng_.uniform();
+    // Rounding may lift the last cell's points onto the period, which is 0.
+    const Vec2 p{wrap((c.i + u) * size.x, grid_.x.period), wrap((c.j + v) * size.y, grid_.y.period)};
+    const bool wrapped = p.x < c.i * size.x || p.y < c.j * size.y;
+    return {c.i >> level_x_, c.j >> level_y_, p, !wrapped};
+  }
+
+  void throw_dart(const Dart& dart) {
+    if (!dart.inside || grid_.taken(dart.i, dart.j) || grid_.covered(dart.i, dart.j, dart.at)) return;
+    put(radii_.conflict < radii_.coverage ? drawn_near(dart.at) : dart.at);
   }
 
   void put(Vec2 p) {
@@ -216,12 +243,14 @@ class Sampler {
       const ActiveCell c = active_[k];
       const std::int64_t i = c.i >> level_x_, j = c.j >> level_y_;
       if (grid_.taken(i, j)) continue;
+      const std::uint32_t left = c.i << across_x, low = c.j << across_y;
+      const std::uint32_t covered = grid_.covers(i, j,
+                                                 {{(left + 0.5) * part.x, (left + across_x + 0.5) * part.x},
+                                                  {(low + 0.5) * part.y, (low + across_y + 0.5) * part.y},
+                                                  0.5 * part});
       for (unsigned b = 0; b <= across_y; ++b)
-        for (unsigned a = 0; a <= across_x; ++a) {
-          const ActiveCell q{(c.i << across_x) + a, (c.j << across_y) + b};
-          if (!grid_.covers(i, j, {(q.i + 0.5) * part.x, (q.j + 0.5) * part.y}, 0.5 * part))
-            next_.push_back(q);
-        }
+        for (unsigned a = 0; a <= across_x; ++a)
+          if ((covered >> (2 * b + a) & 1) == 0) next_.push_back({left + a, low + b});
     }
     active_.swap(next_);
     level_x_ += static_cast<int>(across_x);
@@ -238,23 +267,17 @@ class Sampler {
 
 /// The farthest corner of every cell that is farther than `radius` from its sample, in the points' order.
 std::vector<Vec3> find_gaps(const PointSet& points, double radius, const Control& control) {
-  const NeighborGrid grid(points, hexagonal_spacing(points.domain->area(), points.size()));
-  constexpr std::size_t block = 1024;
-  std::vector<std::vector<Vec3>> gaps((points.size() + block - 1) / block);
-  parallel_blocks(points.size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder finder(points, grid, 2.05 * radius, control);
-    for (std::size_t i = begin; i < end; ++i) {
-      finder.load(static_cast<std::uint32_t>(i));
-      const Cell& cell = finder.cell_at({});
-      if (cell.outradius2() <= radius * radius) continue;
-      const auto farthest = std::max_element(cell.corners().begin(), cell.corners().end(),
-                                             [](auto& a, auto& b) { return norm2(a.at) < norm2(b.at); });
-      gaps[begin / block].push_back(points.domain->step(points[i], farthest->at));
+  std::vector<Vec2> farthest(points.size());
+  visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
+    for (std::size_t k = 0; k < spokes.size(); ++k) {
+      const Vec2 corner = circumcenter(spokes[k].offset, spokes[k + 1 == spokes.size() ? 0 : k + 1].offset);
+      if (norm2(corner) > norm2(farthest[i])) farthest[i] = corner;
     }
   });
-  std::vector<Vec3> all;
-  for (const auto& part : gaps) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  std::vector<Vec3> gaps;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (norm2(farthest[i]) > radius * radius) gaps.push_back(points.domain->step(points[i], farthest[i]));
+  return gaps;
 }
 
 }  // namespace
@@ -276,7 +299,9 @@ PointSet throw_darts(const std::shared_ptr<const Torus>& torus, const DiskRadii&
   return points;
 }
 
-double count_below(double count) { return std::max(1.0, count - 0.75 * std::sqrt(count)); }
+double count_below(double count, double scatter) {
+  return std::max(1.0, count - 2 * scatter * std::sqrt(count));
+}
 
 PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
                               const DiskRadii& radii, Rng& rng, Control& control) {
@@ -285,7 +310,8 @@ PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::ui
     return {torus, {only.x, only.y}};
   }
   const double farthest = norm(torus->box().size) / 2, beta = radii.coverage / radii.conflict;
-  for (double radius = radii.conflict;; radius = std::min(1.01 * radius, farthest)) {
+  double growth = 0.25 / std::sqrt(static_cast<double>(count));
+  for (double radius = radii.conflict;; radius = std::min((1 + growth) * radius, farthest), growth *= 2) {
     Sampler sampler(*torus, {radius, beta * radius}, rng, control);
     sampler.run();
     PointSet points = sampler.samples(torus);

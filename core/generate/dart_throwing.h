@@ -28,13 +28,13 @@ PointSet throw_darts(const std::shared_ptr<const Torus>& torus, const DiskRadii&
 
 /// The same with exactly `count` points, at least 1, if `radii` are such that not many more are drawn: those
 /// that are missing are added by farthest-point insertion, which is the proof as well. Radii that give too
-/// many points are tried again, 1% larger. Guarantees: for r_f of the result, r_c is at most as many times
-/// larger as radii.coverage is than radii.conflict, or beta <= 1.
+/// many points are tried again, a little larger. Guarantees: for r_f of the result, r_c is at most as many
+/// times larger as radii.coverage is than radii.conflict, or beta <= 1.
 PointSet throw_darts_to_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count,
                               const DiskRadii& radii, Rng& rng, Control& control);
 
-/// Three standard deviations below a count: from 10 points to a million, maximal samplings scatter by 0.17 to
-/// 0.25 sqrt(n) for a given radius (measured), so that one of so many expected points hardly has more.
-double count_below(double count);
+/// Two standard deviations below a count, of samplings whose numbers of points scatter by scatter * sqrt(n)
+/// for a given radius: one of so many expected points seldom has more than `count`.
+double count_below(double count, double scatter);
 
 }  // namespace wellspaced

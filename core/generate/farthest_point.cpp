@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -57,19 +58,19 @@ class Inserter {
 
   /// All holes deeper than the floor.
   void collect() {
-    constexpr std::size_t block = 1024;  // divides the blocks in which stars are visited
-    std::vector<std::vector<Hole>> found((points_.size() + block - 1) / block);
+    std::mutex mutex;
     visit_stars(points_, control_, [&](std::size_t i, std::span<const Spoke> spokes) {
       for (std::size_t k = 0; k < spokes.size(); ++k) {
         const Spoke &a = spokes[k], &b = spokes[k + 1 == spokes.size() ? 0 : k + 1];
         if (a.id < i || b.id < i) continue;  // that one's star has it
         const Vec2 center = circumcenter(a.offset, b.offset);
         const double depth = points_.domain->chart_to_distance(norm(center));
-        if (depth > floor_ && std::isfinite(depth))
-          found[i / block].push_back({depth, points_.domain->step(points_[i], center)});
+        if (!(depth > floor_) || !std::isfinite(depth)) continue;
+        const std::lock_guard lock(mutex);
+        holes_.push_back({depth, points_.domain->step(points_[i], center)});
       }
     });
-    for (const auto& part : found) holes_.insert(holes_.end(), part.begin(), part.end());
+    // Stars were visited in any order; it doesn't show, since no two different holes are equal.
     std::make_heap(holes_.begin(), holes_.end(), comes_later);
   }
 
@@ -89,8 +90,8 @@ class Inserter {
   /// The deepest hole above the floor, off the heap. Depths fall as points are inserted, and are looked at
   /// again when their turn comes.
   std::optional<Hole> deepest() {
-    for (std::size_t k = 1;; ++k) {
-      if (k % 256 == 0) control_.check();
+    for (;;) {
+      control_.check();  // a look into a crowd may take a while
       if (holes_.empty() && !lower_floor()) return std::nullopt;
       if (holes_.empty()) continue;
       std::pop_heap(holes_.begin(), holes_.end(), comes_later);
@@ -129,7 +130,6 @@ class Inserter {
   }
 
   void report(std::size_t first, double depth) {
-    control_.check();
     const double reached =
         end_.coverage / depth;  // as many points have that depth as its disk goes into the area
     double fraction = reached * reached;

@@ -25,7 +25,8 @@ PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDi
 
 PointSet poisson_disk_of_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng,
                                Control& control) {
-  const double radius = radius_for_count(*torus, count_below(static_cast<double>(count)));
+  constexpr double scatter = 0.24;  // measured: 0.17 to 0.25 from 10 points to a million
+  const double radius = radius_for_count(*torus, count_below(static_cast<double>(count), scatter));
   return throw_darts_to_count(torus, count, {radius, radius}, rng, control);
 }
 

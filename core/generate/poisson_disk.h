@@ -35,8 +35,8 @@ void require_radius(const Domain& domain, double radius);
 PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,
                       Control& control);
 
-/// The same with exactly `count` points, at least 1: a sampling of about three standard deviations fewer
-/// points, to which farthest-point insertion adds those that are missing, 0.75 sqrt(count) of them.
+/// The same with exactly `count` points, at least 1: a sampling of about two standard deviations fewer
+/// points, to which farthest-point insertion adds those that are missing, 0.5 sqrt(count) of them.
 ///
 /// Guarantees
 /// 1. Exactly `count` points.
@@ -44,7 +44,7 @@ PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDi
 /// 3. Order: row by row, as above.
 /// Not guaranteed: that all are unbiased; the ones added stand in the middle of holes. r is not chosen but
 /// found: n r^2 is 1% less than that of `poisson_disk` at 400 points, 0.1% less at 10,000.
-/// Errors: cancelled, deadline_exceeded. Cost: as poisson_disk; one in a thousand sets takes a second try.
+/// Errors: cancelled, deadline_exceeded. Cost: as poisson_disk; one set in forty takes a second try.
 PointSet poisson_disk_of_count(const std::shared_ptr<const Torus>& torus, std::uint64_t count, Rng& rng,
                                Control& control);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -136,7 +135,7 @@ class Descent {
         flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
       }
-      if (std::has_single_bit(static_cast<unsigned>(sweep)) || sweep % 64 == 0) record();
+      if (sweep == 1 || sweep == 8 || sweep % 64 == 0) record();
       if (allowance.escalate && calm.lasts(count.moves, mesh_.size())) {
         targets.push = std::min(1.6, targets.push * 1.08);
         targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
@@ -178,8 +177,10 @@ class Descent {
     }
   }
 
-  /// Measures the state, and keeps it if it is the best so far.
+  /// Measures the state, and keeps it if it is the best so far. Between sweeps a few edges are not Delaunay,
+  /// whose triangles would be measured for too large.
   void record() {
+    if (sweeps_ > 0) flips_ += static_cast<double>(mesh_.legalize_all(control_));
     const MeshRadii radii = mesh_.measure();
     const double beta = radii.outermost / radii.shortest, d = mesh_.spacing();
     if (!history_.empty() && history_.back().sweep == sweeps_) history_.pop_back();

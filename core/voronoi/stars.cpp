@@ -12,19 +12,14 @@
 
 namespace wellspaced {
 
-bool is_even(const PointSet& points) {
-  constexpr double points_a_cell = 24;
-  if (points.size() < 500) return true;  // looking at all of them is cheap
-  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
-  const NeighborGrid grid(points, spacing * std::sqrt(points_a_cell));
-  return grid.empty_cells() == 0 && static_cast<double>(grid.fullest_cell()) <= 8 * points_a_cell;
-}
+namespace {
 
-void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit) {
-  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
-  const NeighborGrid grid(points, spacing);
+/// `reach`: how far each point looks at first.
+void visit_stars_within(const PointSet& points, double reach, const Control& control,
+                        const StarVisitor& visit) {
+  const NeighborGrid grid(points, hexagonal_spacing(points.domain->area(), points.size()));
   parallel_blocks(points.size(), 1024, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder finder(points, grid, 2.3 * spacing, control);
+    CellFinder finder(points, grid, reach, control);
     std::vector<Spoke> spokes;
     for (std::size_t i = begin; i < end; ++i) {
       // A block may take seconds where very many points are near each other.
@@ -38,6 +33,21 @@ void visit_stars_by_kernel(const PointSet& points, const Control& control, const
       visit(i, spokes);
     }
   });
+}
+
+}  // namespace
+
+bool is_even(const PointSet& points) {
+  constexpr double points_a_cell = 24;
+  if (points.size() < 500) return true;  // looking at all of them is cheap
+  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
+  const NeighborGrid grid(points, spacing * std::sqrt(points_a_cell));
+  return grid.empty_cells() == 0 && static_cast<double>(grid.fullest_cell()) <= 8 * points_a_cell;
+}
+
+void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit) {
+  const double spacing = hexagonal_spacing(points.domain->area(), points.size());
+  visit_stars_within(points, 2.3 * spacing, control, visit);
 }
 
 bool visit_stars_by_wrapping(const PointSet& points, const Control& control, const StarVisitor& visit) {

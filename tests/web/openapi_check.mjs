@@ -28,18 +28,23 @@ function run(operation, request) {
 
 const generate = { count: 50, seed: 3, domain: { type: "torus", width: 2 } };
 const more = {
-  generate: [{ count: 50 }, { radius: 0.1 }, { method: "square", count: 9 }, { method: "jittered", count: 9, picture: "points" }, generate],
+  generate: [{ count: 50 }, { radius: 0.1 }, { method: "square", count: 9 }, { method: "jittered", count: 9, picture: "points" },
+             { method: "two-radii", count: 30, beta: 2 }, { method: "delaunay-refinement", radius: 0.1 }, { method: "hexagonal", count: 8 }, generate],
   optimize: [{ points: { generate }, method: "opt-beta-local", max_sweeps: 2, damping: 0.5 },
              { points: { generate }, method: "opt-beta", beta: 0.8, randomness: "fast", max_visits: 50 },
-             { points: [[0, 0], [0.5, 0.1], [0.2, 0.7]], method: "opt-beta-local", beta: 0.9, max_sweeps: 2 }],
+             { points: { generate: { method: "white-noise", count: 50 } }, method: "opt-beta-local", max_sweeps: 2, enrich: true },
+             { points: [[0, 0], [0.5, 0.1], [0.2, 0.7]], beta: 0.9, method: "opt-beta-local", max_sweeps: 2 },
+             { points: { generate }, method: "push-pull", rho: 0.8, coverage: 0.7, max_sweeps: 20 }, { points: { generate }, method: "cvt", variant: "lloyd", max_sweeps: 3 },
+             { points: { generate }, method: "distmesh", max_sweeps: 3 }, { points: { generate }, method: "far-point", max_sweeps: 2 }],
   analyze: [{ points: { generate }, measures: ["spacing"] }, { points: [[0, 0], [1.5, 0.1], [0.2, 0.7]], domain: { width: 2 } },
             { points: { points: [[0, 0], [1.5, 0.1], [0.2, 0.7]], domain: { width: 2 } } }],
 };
 const refused = {
   generate: [{}, { count: 0 }, { count: 10, radius: 0.1 }, { method: "dart", count: 9 }, { method: "square", radius: 0.1 },
+             { method: "two-radii", count: 9, beta: 1 },
              { count: 10, sed: 1 }, { count: 10, domain: { width: 0 } }, { count: 10, seed: -1 }],
   optimize: [{}, { points: { generate }, beta: 0.5 }, { points: { generate }, beta: 1 }, { points: { generate, job: "x" } },
-             { points: { generate }, method: "opt-beta-local", max_sweeps: 0 }, { points: { generate }, method: "opt-beta", randomness: "wild" }, { points: [[0, 0], [0.5], [0.2, 0.7]] }],
+             { points: { generate }, method: "opt-beta-local", max_sweeps: 0 }, { points: { generate }, method: "opt-beta", randomness: "wild" }, { points: { generate }, enrich: 1 }, { points: [[0, 0], [0.5], [0.2, 0.7]] }],
   analyze: [{}, { points: { generate }, measures: [] }, { points: { generate }, measures: ["taste"] }, { points: 3 }],
 };
 for (const operation of Object.keys(more)) {
