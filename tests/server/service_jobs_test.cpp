@@ -117,7 +117,7 @@ TEST_F(ServiceJobs, DeleteOfAFinishedJobNeedsPurge) {
   EXPECT_EQ(caller.get("/v1/jobs/" + id).problem(), "no-such-job");
 }
 
-TEST_F(ServiceJobs, AResultThatAWaitingJobNeedsCanNotBePurged) {
+TEST(ServiceJobQueue, AResultThatAWaitingJobNeedsCanNotBePurged) {
   const ServedApp busy(one_worker);
   const Caller busy_caller(busy.port());
   const std::string source = busy_caller.submit("generate", R"({"count":50})");
@@ -132,7 +132,7 @@ TEST_F(ServiceJobs, AResultThatAWaitingJobNeedsCanNotBePurged) {
   EXPECT_EQ(busy_caller.remove("/v1/jobs/" + source + "?purge=true").status, 204);
 }
 
-TEST_F(ServiceJobs, WorkThatSomebodyWaitsForIsNotBehindLongJobs) {
+TEST(ServiceJobQueue, WorkThatSomebodyWaitsForIsNotBehindLongJobs) {
   const ServedApp busy(one_worker);
   const Caller busy_caller(busy.port());
   for (int k = 0; k < 3; ++k) busy_caller.submit("optimize", endless_request());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -160,6 +161,8 @@ std::string endless_request() { return optimize_request(20000, 0.58, 10000); }
 Process::Process(const std::vector<std::string>& arguments, const Environment& environment,
                  const std::string& input) {
   std::vector<std::string> words = {WELLSPACED_BINARY}, variables = {"PATH=/usr/bin:/bin"};
+  if (const char* sanitizer = std::getenv("TSAN_OPTIONS"))
+    variables.push_back(std::string("TSAN_OPTIONS=") + sanitizer);
   words.insert(words.end(), arguments.begin(), arguments.end());
   for (const auto& [name, value] : environment) variables.push_back(name + "=" + value);
   const auto pointers = [](std::vector<std::string>& texts) {

@@ -92,7 +92,8 @@ class Process {
  public:
   using Environment = std::map<std::string, std::string>;
 
-  /// `arguments` without the program's name; its environment is only what is given (plus PATH).
+  /// `arguments` without the program's name; its environment is only what is given (plus PATH
+  /// and TSAN_OPTIONS).
   Process(const std::vector<std::string>& arguments, const Environment& environment = {},
           const std::string& input = "");
   ~Process();
