@@ -136,16 +136,13 @@ class Candidates {
     id_.resize(n);
   }
 
+  /// The least of all lanes; of equals, that which came first.
   template <class V>
   static Touch least(V best, V at) {
     const Doubles d;
-    HWY_ALIGN double t[widest], place[widest];
-    hn::Store(best, d, t);
-    hn::Store(at, d, place);
-    std::size_t lane = 0;
-    for (std::size_t k = 1; k < hn::Lanes(d); ++k)
-      if (t[k] < t[lane] || (t[k] == t[lane] && place[k] < place[lane])) lane = k;
-    return {t[lane], static_cast<std::size_t>(place[lane])};
+    const auto value = hn::MinOfLanes(d, best);
+    const auto place = hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(best, value), at, hn::Set(d, infinite)));
+    return {hn::GetLane(value), static_cast<std::size_t>(hn::GetLane(place))};
   }
 
   std::vector<double> x_, y_, h_;

@@ -32,6 +32,7 @@ using Work = std::function<void(State&, Control&)>;
 
 struct Row {
   std::string name;
+  std::uint64_t count;  ///< of the points it works on, made before its time starts; 0: none
   Bar bar;
   Work work;
   int repetitions = 5;
@@ -61,7 +62,7 @@ Row optimizing(std::uint64_t count, double beta, double bar, unsigned threads = 
     if (result.converged != true) state.SkipWithError("the target was not reached");
     state.ResumeTiming();
   };
-  return {name, {bar, "s", 1}, work, count >= million ? 1 : 5, threads};
+  return {name, count, {bar, "s", 1}, work, count >= million ? 1 : 5, threads};
 }
 
 Row sampling(std::uint64_t count, double bar, unsigned threads = 1) {
@@ -72,6 +73,7 @@ Row sampling(std::uint64_t count, double bar, unsigned threads = 1) {
     state.counters["n"] = static_cast<double>(points.size());
   };
   return {"poisson-disk/" + words(count) + (threads > 1 ? "/2 threads" : ""),
+          0,
           {bar, "s", 1},
           work,
           count >= million ? 3 : 9,
@@ -90,7 +92,8 @@ Row candidate_cells() {
         benchmark::DoNotOptimize(finder.radii_at({0.001 * spacing * k, -0.002 * spacing * k}));
     }
   };
-  return {"kernel/candidate cell", {100, "ns", 22.0 * static_cast<double>(points.size())}, work};
+  return {
+      "kernel/candidate cell", ten_thousand, {100, "ns", 22.0 * static_cast<double>(points.size())}, work};
 }
 
 Row stars() {
@@ -98,14 +101,14 @@ Row stars() {
   const auto work = [mesh = StarMesh(points, Control())](State&, Control&) {
     benchmark::DoNotOptimize(mesh.measure());
   };
-  return {"kernel/star", {8, "ns", static_cast<double>(points.size())}, work, 9};
+  return {"kernel/star", ten_thousand, {8, "ns", static_cast<double>(points.size())}, work, 9};
 }
 
 Row local_sweep() {
   const auto work = [](State&, Control& control) {
     benchmark::DoNotOptimize(opt_beta_local(mps(ten_thousand), {0.6, 3, {}}, control));
   };
-  return {"opt-beta-local/10k/sweep", {3, "us", 3.0 * ten_thousand}, work};
+  return {"opt-beta-local/10k/sweep", ten_thousand, {3, "us", 3.0 * ten_thousand}, work};
 }
 
 Row lloyd() {
@@ -113,7 +116,7 @@ Row lloyd() {
   const auto work = [](State&, Control& control) {
     benchmark::DoNotOptimize(cvt(mps(ten_thousand), {CvtOptions::Variant::lloyd, sweeps, 0}, control));
   };
-  return {"cvt/10k/Lloyd iteration", {0.3, "us", sweeps * 1.0 * ten_thousand}, work};
+  return {"cvt/10k/Lloyd iteration", ten_thousand, {0.3, "us", sweeps * 1.0 * ten_thousand}, work};
 }
 
 Row pushing() {
@@ -121,7 +124,7 @@ Row pushing() {
     const OptimizeResult result = push_pull(mps(ten_thousand), {.87, .65, {}, 1000}, control);
     state.counters["beta"] = measure_spacing(result.points, control).beta;
   };
-  return {"push-pull/10k/rho .87, coverage .65", {0.11, "s", 1}, work};
+  return {"push-pull/10k/rho .87, coverage .65", ten_thousand, {0.11, "s", 1}, work};
 }
 
 template <class Function>
@@ -129,7 +132,7 @@ Row of_set(const std::string& name, std::uint64_t count, double bar, Function fu
   const auto work = [=](State&, Control& control) {
     benchmark::DoNotOptimize(function(mps(count), control));
   };
-  return {name + "/" + words(count), {bar, "s", 1}, work, count >= million ? 3 : 9};
+  return {name + "/" + words(count), count, {bar, "s", 1}, work, count >= million ? 3 : 9};
 }
 
 Row analysis(std::uint64_t count, double bar) {
@@ -189,6 +192,7 @@ void add(const Row& row, std::map<std::string, Bar>& bars) {
       using Control::Control;
     } control(row.threads);
     forget_peak();
+    if (row.count > 0) mps(row.count);
     for (auto iteration : state) row.work(state, control);
     state.counters["peak MiB"] = peak_mib();
   };
