@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
@@ -80,7 +81,7 @@ PushPull targets_for(double beta, OptBetaOptions::Randomness randomness) {
 class Descent {
  public:
   Descent(StarMesh mesh, const PointSet& input, const OptBetaOptions& options, Control& control)
-      : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.snapshot()) {
+      : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.places()) {
     budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
     record();
   }
@@ -187,14 +188,14 @@ class Descent {
     history_.push_back({sweeps_, beta, radii.outermost * d, radii.shortest * d});
     if (beta < best_beta_) {
       best_beta_ = beta;
-      if (sweeps_ > 0) best_ = mesh_.snapshot();
+      if (sweeps_ > 0) best_ = mesh_.places();
     }
     control_.report(
         {std::min(1.0, visits_ / budget_), sweeps_, beta, radii.outermost * d, radii.shortest * d});
   }
 
   OptimizeResult result() {
-    mesh_.restore(best_);
+    for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
     OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_)};
     // What the mesh says of its places is right for the points to within this, but for points in a line.
     constexpr double rounding = 1e-6;
@@ -216,7 +217,7 @@ class Descent {
   const OptBetaOptions& options_;
   Control& control_;
   StarMesh mesh_;
-  StarMesh::Snapshot best_;
+  std::vector<FixedPoint> best_;  // stars are not needed to tell the points
   double best_beta_ = std::numeric_limits<double>::infinity();
   double visits_ = 0, flips_ = 0, budget_ = 0;
   int sweeps_ = 0;

@@ -40,6 +40,17 @@ constexpr float longest_step = 0.2f;
 constexpr float thinnest = 1e-3f;  // twice the area that a triangle must keep
 constexpr float illegal = -1e-5f;  // in-circle test in float: below this it is not rounding
 
+/// For each degree, the place before each place.
+struct BeforeTable {
+  alignas(64) std::int32_t place[17][16];
+
+  constexpr BeforeTable() : place() {
+    for (int degree = 1; degree <= 16; ++degree)
+      for (int k = 0; k < 16; ++k) place[degree][k] = k == 0 ? degree - 1 : k - 1;
+  }
+};
+constexpr BeforeTable before_of_degree;
+
 /// W floats, in as many vectors as that takes.
 template <int W>
 struct Row {
@@ -78,10 +89,14 @@ struct Row {
   }
   /// One place back; the first one gets the last of `degree` places.
   Row before(int degree) const {
-    alignas(64) float places[W + 1];
-    store(places + 1);
-    places[0] = places[degree];
-    return load(places);
+    if constexpr (vectors == 1) {
+      return {{hn::TableLookupLanes(v[0], hn::SetTableIndices(D(), before_of_degree.place[degree]))}};
+    } else {
+      alignas(64) float places[W + 1];
+      store(places + 1);
+      places[0] = places[degree];
+      return load(places);
+    }
   }
 
   friend Row operator+(Row a, Row b) {
@@ -307,7 +322,10 @@ bool visit(StarMesh& mesh, std::size_t i, const PushPull& targets, Suspects& sus
 /// Whether the star of a point lies in a territory.
 bool within(const Territory& territory, const Star& star) {
   bool inside = true;
-  for (int k = 0; k < Star::most; ++k) inside &= territory.holds(star.neighbor[k]);
+  if (territory.low + territory.size <= territory.n)  // most territories; simpler to test
+    for (int k = 0; k < Star::most; ++k) inside &= star.neighbor[k] - territory.low < territory.size;
+  else
+    for (int k = 0; k < Star::most; ++k) inside &= territory.holds(star.neighbor[k]);
   return inside;
 }
 

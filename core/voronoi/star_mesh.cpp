@@ -64,24 +64,26 @@ void StarMesh::build_stars(const PointSet& input, const Control& control) {
   for (std::size_t i = 0; i < input.size(); ++i)
     exact[i] = {to_fixed(input[i].x, width_), to_fixed(input[i].y, height_)};
   for (const double nudge : nudges) {
-    place_in_grid_order(nudge > 0 ? shaken(exact, nudge) : exact, input.domain, control);
-    if (is_mutual()) return;
+    const bool mutual = place_in_grid_order(nudge > 0 ? shaken(exact, nudge) : exact, input.domain, control);
+    if (mutual) return;
   }
   refuse("the points have no clear Delaunay triangulation");
 }
 
-/// Sets places and stars.
-void StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
+/// Sets places and stars. Whether those are mutual.
+bool StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
                                    const std::shared_ptr<const Domain>& domain, const Control& control) {
   GridOrder order = grid_order(to_points(points, domain), wrap_cell * spacing_, control);
   original_ = std::move(order.original);
   at_.resize(points.size());
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = points[original_[k]];
   cut_strips(order);
-  if (auto wrapped = wrap_stars(order, control))
+  if (auto wrapped = wrap_stars(order, control)) {
     stars_ = std::move(*wrapped);
-  else
-    collect_stars(to_points(at_, domain), control);
+    return true;
+  }
+  collect_stars(to_points(at_, domain), control);
+  return is_mutual();
 }
 
 void StarMesh::rebuild(const PointSet& input, const Control& control) {

@@ -80,6 +80,7 @@ class StarMesh {
   std::uint32_t original(std::size_t i) const { return original_[i]; }
   const Star& star(std::size_t i) const { return stars_[i]; }
   FixedPoint at(std::size_t i) const { return at_[i]; }
+  const std::vector<FixedPoint>& places() const { return at_; }
 
   /// Units of d_hex a fixed-point step, along each axis.
   Vec2 scale() const { return scale_; }
@@ -148,7 +149,7 @@ class StarMesh {
 
  private:
   void build_stars(const PointSet& input, const Control& control);
-  void place_in_grid_order(const std::vector<FixedPoint>& points, const std::shared_ptr<const Domain>& domain,
+  bool place_in_grid_order(const std::vector<FixedPoint>& points, const std::shared_ptr<const Domain>& domain,
                            const Control& control);
   std::vector<FixedPoint> shaken(std::vector<FixedPoint> points, double amount) const;
   void collect_stars(const PointSet& points, const Control& control);
