@@ -70,7 +70,8 @@ struct Optimizer : Method {
   Cost (*cost_a_point)(const Arguments&) = nullptr;
 };
 
-/// All methods, in the order in which users see them. One row each in registry.cpp.
+/// All methods, in the order in which users see them. One row each in registry_generators.cpp and
+/// registry_optimizers.cpp.
 std::span<const Generator> generators();
 std::span<const Optimizer> optimizers();
 

@@ -1,0 +1,215 @@
+// The generators' rows.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/domain/torus.h"
+#include "core/generate/delaunay_refinement.h"
+#include "core/generate/generate.h"
+#include "core/generate/jittered.h"
+#include "core/generate/lattice.h"
+#include "core/generate/poisson_disk.h"
+#include "core/generate/two_radii.h"
+#include "core/generate/white_noise.h"
+#include "core/registry.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double largest_count = 1e15;  // what is really allowed is the operator's limit
+
+std::uint64_t count_of(const Arguments& a) {
+  return static_cast<std::uint64_t>(argument(a, "count").value());
+}
+
+std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
+  if (auto torus = std::dynamic_pointer_cast<const Torus>(domain)) return torus;
+  throw Error(ErrorCode::invalid_parameters, "this method needs a torus", "/domain/type");
+}
+
+Parameter count(bool alone) {
+  return {"count",
+          Parameter::Type::integer,
+          "Exact number of points",
+          "",
+          1,
+          largest_count,
+          false,
+          false,
+          "",
+          alone,
+          !alone};
+}
+
+Parameter radius() {
+  return {"radius",
+          Parameter::Type::number,
+          "Conflict radius r: no two points are nearer to each other",
+          "domain length",
+          0,
+          std::numeric_limits<double>::max(),
+          true,
+          false,
+          "",
+          false,
+          true};
+}
+
+Parameter coverage_ratio() {
+  Parameter p;
+  p.name = "beta";
+  p.description = "Coverage radius over conflict radius: no place is farther than beta r from all points";
+  p.minimum = 1;
+  p.maximum = 2;
+  p.exclusive_minimum = true;
+  p.fallback = "1.5";
+  return p;
+}
+
+TwoRadiiOptions two_radii_options(const Arguments& a) {
+  TwoRadiiOptions options;
+  options.radius = argument(a, "radius").value_or(options.radius);
+  options.beta = argument(a, "beta").value_or(options.beta);
+  return options;
+}
+
+Parameter even_count() {
+  Parameter p = count(true);
+  p.description += ", even: a honeycomb has two points a cell";
+  p.minimum = 2;
+  return p;
+}
+
+double counted(const Domain&, const Arguments& a) { return argument(a, "count").value(); }
+
+template <PointSet (*lattice)(const std::shared_ptr<const Torus>&, std::uint64_t, Control&)>
+PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+  return lattice(torus_of(domain), count_of(a), control);
+}
+
+const std::vector<Generator> generator_rows = {
+    {{"poisson-disk",
+      "Maximal Poisson-disk sampling",
+      "Random points, none nearer than r to another, and no room for one more: beta <= 1.",
+      "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
+      {count(false), radius()}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       const auto torus = torus_of(domain);
+       const auto r = argument(a, "radius");
+       return r ? poisson_disk(torus, {*r}, rng, control)
+                : poisson_disk_of_count(torus, count_of(a), rng, control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       const auto r = argument(a, "radius");
+       return r ? poisson_disk_count(domain.area(), *r) : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {5e-6, 180}},
+    {{"two-radii",
+      "Two-radii Poisson-disk sampling",
+      "Random points, none nearer than r to another, no place farther than beta r from all: between "
+      "poisson-disk and white noise.",
+      "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
+      {count(false), radius(), coverage_ratio()}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       const auto torus = torus_of(domain);
+       const TwoRadiiOptions options = two_radii_options(a);
+       return argument(a, "radius") ? two_radii(torus, options, rng, control)
+                                    : two_radii_of_count(torus, count_of(a), options, rng, control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       return argument(a, "radius") ? two_radii_count(domain.area(), two_radii_options(a))
+                                    : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {1e-5, 260}},
+    {{"white-noise",
+      "White noise",
+      "Independent uniform points: what nothing is spaced looks like.",
+      "",
+      {count(true)}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       return white_noise(std::move(domain), count_of(a), rng, control);
+     },
+     counted,
+     nullptr,
+     {1e-7, 64}},
+    {{"jittered",
+      "Jittered grid",
+      "One uniform point in each of as many rectangles of equal area, row by row.",
+      "",
+      {count(true)}},
+     true,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+       return jittered(torus_of(domain), count_of(a), rng, control);
+     },
+     counted,
+     nullptr,
+     {1e-7, 64}},
+    {{"delaunay-refinement",
+      "Delaunay refinement",
+      "The circumcenter of the largest Delaunay triangle becomes a point until none is larger than r, which "
+      "is "
+      "also the least distance: beta <= 1, and no randomness.",
+      "Chew, Guaranteed-Quality Triangular Meshes, 1989",
+      {count(false), radius()}},
+     false,
+     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+       const auto torus = torus_of(domain);
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement(torus, *r, control)
+                : delaunay_refinement_of_count(torus, count_of(a), control);
+     },
+     [](const Domain& domain, const Arguments& a) {
+       const auto r = argument(a, "radius");
+       return r ? delaunay_refinement_count(domain.area(), *r) : argument(a, "count").value();
+     },
+     [](const Domain& domain, const Arguments& a) {
+       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+     },
+     {1e-5, 200}},
+    {{"triangular",
+      "Triangular lattice",
+      "The best possible spacing and no randomness: the least stretched lattice of that many points, beta = "
+      "1/sqrt(3) where one fits.",
+      "",
+      {count(true)}},
+     false,
+     run_lattice<triangular_lattice>,
+     counted,
+     nullptr,
+     {3e-7, 64}},
+    {{"square",
+      "Square lattice",
+      "The least stretched lattice of that many points: beta = 1/sqrt(2) where one fits.",
+      "",
+      {count(true)}},
+     false,
+     run_lattice<square_lattice>,
+     counted,
+     nullptr,
+     {3e-7, 64}},
+    {{"hexagonal",
+      "Hexagonal lattice (honeycomb)",
+      "The corners of the least stretched hexagons, an even number: beta = 1 where they fit.",
+      "",
+      {even_count()}},
+     false,
+     run_lattice<hexagonal_lattice>,
+     counted,
+     [](const Domain&, const Arguments& a) { require_even(count_of(a)); },
+     {3e-7, 64}},
+};
+
+}  // namespace
+
+std::span<const Generator> generators() { return generator_rows; }
+
+}  // namespace wellspaced
