@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace wellspaced {
 
@@ -31,10 +32,23 @@ class Rng {
   /// Uniform in [0, 1), 53 bits.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
+  /// Two numbers uniform in [0, 1), 32 bits each.
+  std::pair<double, double> uniform_pair() {
+    const std::uint64_t bits = next();
+    return {static_cast<double>(bits >> 32) * 0x1p-32, static_cast<double>(bits & 0xffffffffu) * 0x1p-32};
+  }
+
   /// Uniform in [0, n), n > 0, by multiply-shift (bias below n / 2^64).
   std::uint64_t below(std::uint64_t n) {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::uint64_t>((static_cast<Wide>(next()) * n) >> 64);
+  }
+  /// The same in [0, n) and [0, m) at once (bias below n m / 2^64).
+  std::pair<std::uint64_t, std::uint64_t> below(std::uint64_t n, std::uint64_t m) {
+    __extension__ using Wide = unsigned __int128;
+    const Wide first = static_cast<Wide>(next()) * n;
+    const Wide second = static_cast<Wide>(static_cast<std::uint64_t>(first)) * m;
+    return {static_cast<std::uint64_t>(first >> 64), static_cast<std::uint64_t>(second >> 64)};
   }
 
  private:

@@ -5,20 +5,13 @@
 
 #include "core/control.h"
 #include "core/domain/torus.h"
+#include "core/generate/sample_grid.h"
 #include "core/point_set.h"
 #include "core/rng.h"
 
 namespace wellspaced {
 
-/// What disk samplings keep: no two points nearer than `conflict`, no place farther than `coverage` from all
-/// of them. Requires: 0 < conflict <= coverage; conflict <= half the torus's diagonal.
-struct DiskRadii {
-  double conflict = 0, coverage = 0;
-};
-
-/// Darts into a flat quadtree of cells that no single disk covers, until none is left; then coverage is
-/// proven cell by cell from the Voronoi diagram, and gaps that rounding left are filled. The method behind
-/// `poisson_disk` and `two_radii`, whose headers say what holds.
+/// A DartSampler's points: the method behind `poisson_disk` and `two_radii`, whose headers say what holds.
 ///
 /// A dart aims at a place that no sample covers. Where the radii are the same it becomes a sample there, else
 /// at a place drawn around it (where 16 draws conflict with samples: there).

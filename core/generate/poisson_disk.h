@@ -22,16 +22,16 @@ void require_radius(const Domain& domain, double radius);
 ///
 /// Guarantees
 /// 1. r_f >= r between any two samples, periodic images included.
-/// 2. Maximal: r_c <= r (1 + 1e-9), proven cell by cell from the Voronoi diagram; gaps that rounding left are
-/// filled.
+/// 2. Maximal: r_c <= r (1 + 1e-9), since every cell of a quadtree was found covered by one sample or taken.
 ///    So beta <= 1 + 1e-9.
-/// 3. Unbiased: each sample is uniform over what the earlier ones leave free.
+/// 3. Unbiased: each sample is uniform over what the earlier ones leave free; of more than about 20,000
+///    samples, over what they leave free of one tile, tiles taking turns. The spectrum doesn't show it.
 /// 4. Order: row by row of the background grid, left to right.
 /// Errors: infeasible at /radius above half the diagonal; cancelled, deadline_exceeded.
-/// Cost: O(n) time and memory, about 1 us a point. n r^2 is .690 to .703 of the area for n >= 5000.
-/// Determinism: the points depend on torus, radius and rng only.
-/// Reference: Ebeida, Mitchell, Patney, Davidson, Owens, "A Simple Algorithm for Maximal Poisson-Disk
-/// Sampling in High Dimensions", 2012. The base cell has side r/sqrt(2), so that it holds at most one sample.
+/// Cost: O(n) time and memory, about 0.6 us and 100 bytes a point. n r^2 is .690 to .703 of the area for n >=
+/// 5000. Determinism: the points depend on torus, radius and rng only, on no number of threads. Reference:
+/// Ebeida, Mitchell, Patney, Davidson, Owens, "A Simple Algorithm for Maximal Poisson-Disk Sampling in High
+/// Dimensions", 2012. The base cell has side r/sqrt(2), so that it holds at most one sample.
 PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,
                       Control& control);
 

@@ -20,8 +20,8 @@ struct TwoRadiiOptions {
 ///
 /// Guarantees
 /// 1. No two samples are nearer than r_f, periodic images included.
-/// 2. No place is farther than r_c (1 + 1e-9) from its nearest sample, proven cell by cell from the Voronoi
-/// diagram. So beta of the result is at most options.beta.
+/// 2. No place is farther than r_c (1 + 1e-9) from its nearest sample, since every cell of a quadtree was
+/// found covered by one sample or taken. So beta of the result is at most options.beta.
 /// 3. Each sample is drawn from the disk of radius r_c around a place that is uniform over what no earlier
 /// one covers, uniformly over the part of it that is free of conflicts; it is that place where 16 draws
 /// conflict.

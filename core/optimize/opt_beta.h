@@ -33,8 +33,8 @@ int allowed_visits(const OptBetaOptions& options);
 /// `history` holds the sweeps 0, 1, 8 and every 64th of each stage, a sweep visiting only points that are
 /// marked. Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits;
 /// cancelled, deadline_exceeded. Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to
-/// .75, 40 to .70 where fast, two to three times as many where gentle; 110 bytes a point. Determinism:
-/// sequential; visits, not time, end it.
+/// .75, 40 to .70 where fast, two to three times as many where gentle; 110 bytes a point. Determinism: the
+/// same on any number of threads; visits, not time, end it.
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control);
 
 }  // namespace wellspaced

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include "core/generate/white_noise.h"
 #include "core/registry.h"
 #include "tests/support/oracle.h"
+#include "tests/support/vector_widths.h"
 
 namespace wellspaced {
 namespace {
@@ -88,6 +91,52 @@ TEST(PoissonDisk, DependsOnItsSeedOnly) {
   const PointSet one = mps(1, 1, 0.01, 3, 1), two = mps(1, 1, 0.01, 3, 2), other = mps(1, 1, 0.01, 4, 1);
   EXPECT_EQ(one.coordinates, two.coordinates);
   EXPECT_NE(one.coordinates, other.coordinates);
+}
+
+/// Large enough to be cut into tiles along the axes that are long.
+constexpr struct {
+  double width, height, radius;
+} tiled[] = {{1, 1, 0.004}, {3, 0.3, 0.004}, {0.2, 5, 0.004}};
+
+TEST(PoissonDiskInTiles, GivesTheSameOnAnyNumberOfThreadsAndEveryVectorWidth) {
+  for (const auto& c : tiled) {
+    const PointSet one = mps(c.width, c.height, c.radius, 3);
+    EXPECT_GT(one.size(), 35000u);
+    testing::on_every_vector_width([&](const std::string& name) {
+      for (const unsigned threads : {1u, 2u, 3u, 8u})
+        EXPECT_EQ(mps(c.width, c.height, c.radius, 3, threads).coordinates, one.coordinates)
+            << name << ", " << threads << " threads";
+    });
+  }
+}
+
+TEST(PoissonDiskInTiles, KeepsBothOfItsGuarantees) {
+  for (const auto& c : tiled)
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const Spacing spacing = measure_spacing(mps(c.width, c.height, c.radius, seed, 2), Control(2));
+      EXPECT_GE(spacing.r_f, c.radius * (1 - 1e-12));
+      EXPECT_LE(spacing.r_c, c.radius * (1 + 1e-9));
+    }
+}
+
+/// Of the periodogram, of points in the unit square.
+double power_at(const PointSet& points, double kx, double ky) {
+  std::complex<double> sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sum += std::polar(1.0, -2 * std::numbers::pi * (kx * points[i].x + ky * points[i].y));
+  return std::norm(sum) / static_cast<double>(points.size());
+}
+
+TEST(PoissonDiskInTiles, ShowsNoBordersAtLowFrequencies) {
+  // Blocks are a twelfth and tiles a half of the torus wide here.
+  double power = 0;
+  constexpr int sets = 5, frequencies = 12;
+  for (std::uint64_t seed = 1; seed <= sets; ++seed) {
+    const PointSet points = mps(1, 1, 0.0036, seed, 2);
+    for (int k = 1; k <= frequencies; ++k)
+      power += (power_at(points, k, 0) + power_at(points, 0, k)) / (2 * sets * frequencies);
+  }
+  EXPECT_NEAR(power, 0.060, 0.025) << "what one tile gives";
 }
 
 TEST(PoissonDisk, RefusesRadiiThatLeaveNoRoom) {
