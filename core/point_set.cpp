@@ -16,7 +16,7 @@ namespace wellspaced {
 namespace {
 
 void require_in_domain(const PointSet& points) {
-  const int dim = points.domain->dimension();
+  const int dim = std::min(points.domain->dimension(), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];
     const double c[3] = {p.x, p.y, p.z};

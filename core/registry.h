@@ -58,7 +58,7 @@ struct Method {
 
 struct Generator : Method {
   bool random = true;  ///< takes a seed
-  PointSet (*run)(std::shared_ptr<const Domain>, const Arguments&, Rng&, Control&) = nullptr;
+  PointSet (*run)(const std::shared_ptr<const Domain>&, const Arguments&, Rng&, Control&) = nullptr;
   double (*expected_count)(const Domain&, const Arguments&) = nullptr;
   /// What can be refused before the work, beyond the parameters' ranges; same errors as `run`.
   void (*check)(const Domain&, const Arguments&) = nullptr;

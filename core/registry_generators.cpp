@@ -83,7 +83,8 @@ Parameter even_count() {
 double counted(const Domain&, const Arguments& a) { return argument(a, "count").value(); }
 
 template <PointSet (*lattice)(const std::shared_ptr<const Torus>&, std::uint64_t, Control&)>
-PointSet run_lattice(std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+PointSet run_lattice(const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng&,
+                     Control& control) {
   return lattice(torus_of(domain), count_of(a), control);
 }
 
@@ -94,7 +95,7 @@ const std::vector<Generator> generator_rows = {
       "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
       {count(false), radius()}},
      true,
-     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
        return r ? poisson_disk(torus, {*r}, rng, control)
@@ -115,7 +116,7 @@ const std::vector<Generator> generator_rows = {
       "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
       {count(false), radius(), coverage_ratio()}},
      true,
-     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        const auto torus = torus_of(domain);
        const TwoRadiiOptions options = two_radii_options(a);
        return argument(a, "radius") ? two_radii(torus, options, rng, control)
@@ -135,7 +136,7 @@ const std::vector<Generator> generator_rows = {
       "",
       {count(true)}},
      true,
-     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        return white_noise(std::move(domain), count_of(a), rng, control);
      },
      counted,
@@ -147,7 +148,7 @@ const std::vector<Generator> generator_rows = {
       "",
       {count(true)}},
      true,
-     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng& rng, Control& control) {
+     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        return jittered(torus_of(domain), count_of(a), rng, control);
      },
      counted,
@@ -161,7 +162,7 @@ const std::vector<Generator> generator_rows = {
       "Chew, Guaranteed-Quality Triangular Meshes, 1989",
       {count(false), radius()}},
      false,
-     [](std::shared_ptr<const Domain> domain, const Arguments& a, Rng&, Control& control) {
+     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng&, Control& control) {
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
        return r ? delaunay_refinement(torus, *r, control)

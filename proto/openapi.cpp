@@ -96,7 +96,7 @@ ordered_json result_content(std::string_view operation, const std::string& schem
 }
 
 ordered_json example_of(const std::string& operation) {
-  const ordered_json generate = {{"method", "poisson-disk"}, {"count", 10000}, {"seed", 1}};
+  ordered_json generate = {{"method", "poisson-disk"}, {"count", 10000}, {"seed", 1}};
   if (operation == "generate") return generate;
   if (operation == "analyze") return {{"points", {{"generate", generate}}}};
   return {{"points", {{"generate", generate}}}, {"method", "opt-beta-local"}, {"beta", 0.85}};

@@ -65,10 +65,10 @@ void start_log(const std::string& level) {
   spdlog::set_default_logger(make_logger("wellspaced", sink, level));
 }
 
-void log_info(const std::string& message, ordered_json fields) {
+void log_info(const std::string& message, const ordered_json& fields) {
   write(spdlog::level::info, message, fields);
 }
-void log_error(const std::string& message, ordered_json fields) {
+void log_error(const std::string& message, const ordered_json& fields) {
   write(spdlog::level::err, message, fields);
 }
 void flush_log() { spdlog::shutdown(); }

@@ -10,8 +10,8 @@ namespace wellspaced {
 /// through spdlog's default logger included. Before `start_log` nothing is written. Thread safety: any
 /// thread. Invalid UTF-8 in fields is replaced.
 void start_log(const std::string& level);
-void log_info(const std::string& message, nlohmann::ordered_json fields = {});
-void log_error(const std::string& message, nlohmann::ordered_json fields = {});
+void log_info(const std::string& message, const nlohmann::ordered_json& fields = {});
+void log_error(const std::string& message, const nlohmann::ordered_json& fields = {});
 
 /// Writes out what is buffered and ends the log; for the end of the process.
 void flush_log();

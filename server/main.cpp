@@ -34,7 +34,8 @@ int serve(Config config) {
     app->stop();
   });
   const bool clean = app->serve();
-  pthread_kill(waiter.native_handle(), SIGTERM);
+  pthread_kill(waiter.native_handle(),
+               SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread): sigwait takes it
   waiter.join();
   if (clean) app.reset();  // its threads may have something to say until then
   flush_log();

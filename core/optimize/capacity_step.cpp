@@ -54,7 +54,7 @@ bool capacity_step(StarMesh& mesh, std::size_t i, double most) {
   const StarCell cell(mesh, i);
   const double excess = area(cell) - mean_area;
   if (!(std::abs(excess) > most * mean_area)) return false;
-  double length[Star::most], square_sum = 0;
+  double length[Star::most] = {}, square_sum = 0;
   for (int k = 0; k < cell.degree; ++k) {
     length[k] = norm(cell.corner[k] - cell.corner[cell.before(k)]);
     square_sum += length[k] * length[k];

@@ -6,7 +6,7 @@ namespace wellspaced {
 
 StarCell::StarCell(const StarMesh& mesh, std::size_t i) : degree(mesh.star(i).degree) {
   const Star& star = mesh.star(i);
-  double length2[Star::most];
+  double length2[Star::most] = {};
   for (int k = 0; k < degree; ++k) {
     spoke[k] = mesh.offset(i, star.neighbor[k]);
     length2[k] = norm2(spoke[k]);

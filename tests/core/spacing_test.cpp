@@ -50,7 +50,7 @@ TEST(Spacing, OfOtherSamplersPointSetsIsWhatCgalMeasured) {
   for (const auto& [name, wanted] : all) {
     SCOPED_TRACE(name);
     const Spacing s = measure_spacing(read_points(name), Control(2));
-    const auto number = [&](const std::string& key) { return std::stod(wanted.at(key)); };
+    const auto number = [&values = wanted](const std::string& key) { return std::stod(values.at(key)); };
     EXPECT_EQ(static_cast<double>(s.n), number("N"));
     EXPECT_NEAR(s.r_f, number("r_f"), 1e-9);
     EXPECT_NEAR(s.r_c, number("r_c"), 1e-9);

@@ -23,7 +23,7 @@ namespace wellspaced::http::test {
 using namespace std::chrono_literals;
 
 /// The one limit of every wait in these tests; generous, because sanitizers and busy machines are slow.
-inline constexpr auto kPatience = 30s;
+inline constexpr auto kPatience = 120s;
 
 /// Polls until `condition` holds; false after kPatience.
 inline bool eventually(const std::function<bool()>& condition) {
