@@ -1,53 +1,22 @@
 #include "core/analyze/spacing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <span>
 
+#include "core/analyze/spacing_star.h"
 #include "core/error.h"
 #include "core/math.h"
-#include "core/voronoi/cell.h"
 #include "core/voronoi/stars.h"
 
 namespace wellspaced {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// What one point's star says.
-struct StarMeasure {
-  double nearest = infinity, outradius = 0, cell_area = 0;
-  double edge_max = 0;
-  // Angles by their cotangents, which fall as the angle grows: atan2 is then needed for two of them only.
-  double cotangent_max = -infinity, cotangent_min = infinity;
-  int valence = 0;
-
-  double beta_i() const { return outradius / nearest; }
-};
-
-StarMeasure measure_star(std::size_t i, std::span<const Spoke> spokes) {
-  StarMeasure m;
-  m.valence = static_cast<int>(spokes.size());
-  Vec2 previous = circumcenter(spokes.back().offset, spokes.front().offset);
-  for (std::size_t k = 0; k < spokes.size(); ++k) {
-    const Vec2 a = spokes[k].offset, b = spokes[k + 1 == spokes.size() ? 0 : k + 1].offset;
-    const double length = norm(a);
-    if (spokes[k].id != i) m.nearest = std::min(m.nearest, length);
-    m.edge_max = std::max(m.edge_max, length);
-    const Vec2 center = circumcenter(a, b);
-    m.outradius = std::max(m.outradius, norm(center));
-    m.cell_area += cross(previous, center) / 2;
-    previous = center;
-    // All three angles, though a neighbor sees its own: among cocircular points it may see another triangle.
-    const double twice_area = cross(a, b), at_center = dot(a, b), at_a = dot(a, a - b), at_b = dot(b, b - a);
-    m.cotangent_max =
-        std::max({m.cotangent_max, at_center / twice_area, at_a / twice_area, at_b / twice_area});
-    m.cotangent_min =
-        std::min({m.cotangent_min, at_center / twice_area, at_a / twice_area, at_b / twice_area});
-  }
-  return m;
-}
 
 double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 / pi); }
 
@@ -61,44 +30,71 @@ void require_possible(const Spacing& s, double area) {
       "the points are so nearly on one line that rounding hides their triangles; move some of them off it");
 }
 
-Spacing summarize(const PointSet& points, const std::vector<StarMeasure>& stars) {
-  Spacing s;
-  s.n = points.size();
-  const auto n = static_cast<double>(s.n);
-  const double area = points.domain->area(), spacing = hexagonal_spacing(area, s.n);
-  s.r_f = infinity;
-  double cotangent_max = -infinity, cotangent_min = infinity, nearest_sum = 0, beta_sum = 0,
-         area_square_sum = 0;
-  for (const StarMeasure& m : stars) {  // in the points' order: the sums must not depend on threads
-    s.r_f = std::min(s.r_f, m.nearest);
-    s.r_c = std::max(s.r_c, m.outradius);
-    s.beta_i_max = std::max(s.beta_i_max, m.beta_i());
-    beta_sum += m.beta_i();
-    nearest_sum += m.nearest;
-    area_square_sum += (m.cell_area - area / n) * (m.cell_area - area / n);
-    s.edge_max = std::max(s.edge_max, m.edge_max);
-    cotangent_max = std::max(cotangent_max, m.cotangent_max);
-    cotangent_min = std::min(cotangent_min, m.cotangent_min);
-    ++s.valence[m.valence];
-  }
-  s.beta = s.r_c / s.r_f;
-  require_possible(s, area);
-  s.beta_i_mean = beta_sum / n;
-  s.rho = s.r_f / spacing;
-  s.coverage = s.r_c / spacing;
-  s.packing_density = n * pi * s.r_f * s.r_f / (4 * area);
-  s.nearest_mean = nearest_sum / n / spacing;
-  s.cell_area_sd = std::sqrt(area_square_sum / n) / (area / n);
-  s.angle_min_deg = angle_deg(cotangent_max);
-  s.angle_max_deg = angle_deg(cotangent_min);
-  s.edge_min = 1;
-  s.edge_max /= s.r_f;
-  return s;
-}
+/// Sums and extremes of all stars, and what they say together.
+class Summary {
+ public:
+  explicit Summary(const PointSet& points)
+      : n_(points.size()), area_(points.domain->area()), mean_area_(area_ / static_cast<double>(n_)) {}
 
-std::vector<StarMeasure> measure_stars(const PointSet& points, const Control& control) {
+  /// In the points' order: the sums must not depend on threads. Returns the point's beta_i.
+  double add(const StarMeasure& m) {
+    const double beta_i = m.outradius / m.nearest, excess = m.cell_area - mean_area_;
+    r_f_ = std::min(r_f_, m.nearest);
+    r_c_ = std::max(r_c_, m.outradius);
+    beta_max_ = std::max(beta_max_, beta_i);
+    beta_sum_ += beta_i;
+    nearest_sum_ += m.nearest;
+    area_square_sum_ += excess * excess;
+    edge_max_ = std::max(edge_max_, m.edge_max);
+    cotangent_max_ = std::max(cotangent_max_, m.cotangent_max);
+    cotangent_min_ = std::min(cotangent_min_, m.cotangent_min);
+    if (m.valence < static_cast<int>(few_.size()))
+      ++few_[static_cast<std::size_t>(m.valence)];
+    else
+      ++many_[m.valence];
+    return beta_i;
+  }
+
+  Spacing result() const {
+    const auto n = static_cast<double>(n_);
+    const double spacing = hexagonal_spacing(area_, n_);
+    Spacing s;
+    s.n = n_;
+    s.r_f = r_f_;
+    s.r_c = r_c_;
+    s.beta = r_c_ / r_f_;
+    require_possible(s, area_);
+    s.beta_i_max = beta_max_;
+    s.beta_i_mean = beta_sum_ / n;
+    s.rho = r_f_ / spacing;
+    s.coverage = r_c_ / spacing;
+    s.packing_density = n * pi * r_f_ * r_f_ / (4 * area_);
+    s.nearest_mean = nearest_sum_ / n / spacing;
+    s.cell_area_sd = std::sqrt(area_square_sum_ / n) / mean_area_;
+    s.angle_min_deg = angle_deg(cotangent_max_);
+    s.angle_max_deg = angle_deg(cotangent_min_);
+    s.edge_min = 1;
+    s.edge_max = edge_max_ / r_f_;
+    s.valence = many_;
+    for (std::size_t k = 0; k < few_.size(); ++k)
+      if (few_[k] > 0) s.valence[static_cast<int>(k)] = few_[k];
+    return s;
+  }
+
+ private:
+  std::size_t n_;
+  double area_, mean_area_;
+  double r_f_ = infinity, r_c_ = 0, edge_max_ = 0, beta_max_ = 0;
+  double beta_sum_ = 0, nearest_sum_ = 0, area_square_sum_ = 0;
+  double cotangent_max_ = -infinity, cotangent_min_ = infinity;
+  std::array<std::size_t, 32> few_{};  ///< how many points have so few neighbors
+  std::map<int, std::size_t> many_;
+};
+
+/// In the points' order. Many megabytes: not cleared first.
+std::unique_ptr<StarMeasure[]> measure_stars(const PointSet& points, const Control& control) {
   require_usable(points, control);
-  std::vector<StarMeasure> stars(points.size());
+  auto stars = std::make_unique_for_overwrite<StarMeasure[]>(points.size());
   visit_stars(points, control,
               [&](std::size_t i, std::span<const Spoke> spokes) { stars[i] = measure_star(i, spokes); });
   return stars;
@@ -107,7 +103,10 @@ std::vector<StarMeasure> measure_stars(const PointSet& points, const Control& co
 }  // namespace
 
 Spacing measure_spacing(const PointSet& points, const Control& control) {
-  return summarize(points, measure_stars(points, control));
+  const auto stars = measure_stars(points, control);
+  Summary summary(points);
+  for (std::size_t i = 0; i < points.size(); ++i) summary.add(stars[i]);
+  return summary.result();
 }
 
 GlobalRatio measure_ratio(const PointSet& points, const Control& control) {
@@ -123,10 +122,12 @@ GlobalRatio measure_ratio(const PointSet& points, const Control& control) {
 }
 
 LocalSpacing measure_local_spacing(const PointSet& points, const Control& control) {
-  const std::vector<StarMeasure> stars = measure_stars(points, control);
-  LocalSpacing result{summarize(points, stars), {}};
-  result.beta_i.reserve(stars.size());
-  for (const StarMeasure& m : stars) result.beta_i.push_back(m.beta_i());
+  const auto stars = measure_stars(points, control);
+  Summary summary(points);
+  LocalSpacing result;
+  result.beta_i.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) result.beta_i.push_back(summary.add(stars[i]));
+  result.global = summary.result();
   return result;
 }
 

@@ -40,7 +40,7 @@ struct LocalSpacing {
 /// relative.
 /// 2. For beta: angles lie in [asin(1/(2 beta)), 180 - 2 asin(1/(2 beta))], edges in [1, 2 beta].
 /// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
-/// O(n log n), about 1 us a point and thread for even sets. Determinism: the same bits on any number of
+/// O(n log n), about 0.45 us a point and thread for even sets. Determinism: the same bits on any number of
 /// threads. Reference: Ebeida et al. 2013, sections 2 and 6; Lagae and Dutre 2008 (rho).
 Spacing measure_spacing(const PointSet& points, const Control& control);
 LocalSpacing measure_local_spacing(const PointSet& points, const Control& control);

@@ -70,7 +70,7 @@ class Sweeper {
         damping_(damping),
         order_(scan_line_order(points, spacing_, control)),
         grid_(points, spacing_),
-        finder_(points, grid_, 2.5 * spacing_, control) {
+        finder_(points, grid_, 2 * spacing_, control) {
     require_local(grid_);
   }
 

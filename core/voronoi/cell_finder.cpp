@@ -14,7 +14,11 @@ constexpr std::size_t crowd = 256;  ///< a neighborhood of so many may take long
 }  // namespace
 
 CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control)
-    : points_(&points), grid_(&grid), control_(&control), first_reach_(reach) {
+    : points_(&points),
+      grid_(&grid),
+      control_(&control),
+      first_reach_(reach),
+      is_flat_(points.domain->type() == "torus") {
   // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can
   // matter.
   farthest_reach_ = 2 * norm(points.domain->box().size);
@@ -30,6 +34,13 @@ void CellFinder::gather(double reach) {
   reach_ = reach;
   neighbors_.clear();
   grid_->gather(base_, self_, reach, neighbors_);
+  has_own_images_ =
+      std::any_of(neighbors_.begin(), neighbors_.end(), [this](const Neighbor& n) { return n.id == self_; });
+  sorted_ = false;
+  star_use_ = StarUse::not_loaded;
+}
+
+void CellFinder::sort_neighbors() {
   // Near ones first: they cut most, and the rest is then rejected in O(1). Ties by id keep the order one for
   // all.
   const auto nearer = [](const Neighbor& a, const Neighbor& b) {
@@ -40,11 +51,16 @@ void CellFinder::gather(double reach) {
     std::sort(neighbors_.begin(), neighbors_.end(), nearer);
   else
     sort(neighbors_.begin(), neighbors_.end(), *control_, nearer);
-  half_planes_.resize(neighbors_.size());
+  sorted_ = true;
 }
 
 void CellFinder::cut(Vec2 u) {
+  if (!sorted_) sort_neighbors();
+  half_planes_.resize(neighbors_.size());
   points_->domain->bisectors(base_, u, neighbors_, half_planes_);
+  for (std::size_t k = 0; k < neighbors_.size() && has_own_images_; ++k)
+    if (neighbors_[k].id == self_)  // it moves along
+      points_->domain->bisectors(base_, {}, {&neighbors_[k], 1}, {&half_planes_[k], 1});
   cell_.reset(reach_);
   for (std::size_t k = 0; k < half_planes_.size(); ++k) {
     if (k % crowd == crowd - 1) control_->check();
@@ -65,12 +81,35 @@ const Cell& CellFinder::cell_at(Vec2 u) {
 }
 
 CellFinder::Radii CellFinder::radii_at(Vec2 u) {
+  if (const auto radii = radii_by_star(u)) return *radii;
+  return radii_by_clipping(u);
+}
+
+void CellFinder::load_star() {
+  // An own image bounds the cell, but is no other sample and moves along: leave that to clipping.
+  const bool suits = is_flat_ && !has_own_images_ && neighbors_.size() <= CandidateStar::most_neighbors;
+  star_use_ = suits ? StarUse::loaded : StarUse::unsuitable;
+  if (suits) star_.load(neighbors_);
+}
+
+std::optional<CellFinder::Radii> CellFinder::radii_by_star(Vec2 u) {
+  if (star_use_ == StarUse::not_loaded) load_star();
+  if (star_use_ == StarUse::unsuitable) return std::nullopt;
+  const auto squares = star_.squares_at(u);
+  if (!squares) return std::nullopt;
+  const Radii radii{std::sqrt(squares->nearest2), std::sqrt(squares->outradius2)};
+  if (norm(u) + 2 * radii.r_c > reach_) return std::nullopt;
+  return radii;
+}
+
+CellFinder::Radii CellFinder::radii_by_clipping(Vec2 u) {
   cell_at(u);
   double nearest2 = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < half_planes_.size(); ++k) {
     if (neighbors_[k].id == self_) continue;  // an own image bounds the cell but is no other sample
     const HalfPlane& h = half_planes_[k];
-    nearest2 = std::min(nearest2, h.c * std::fabs(h.c) / norm2(h.n));
+    const double n2 = norm2(h.n);
+    nearest2 = std::min(nearest2, n2 > 0 ? h.c * std::fabs(h.c) / n2 : 0);
   }
   const Domain& domain = *points_->domain;
   return {2 * domain.chart_to_distance(std::sqrt(std::max(0.0, nearest2))),

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/control.h"
 #include "core/domain/domain.h"
 #include "core/point_set.h"
+#include "core/voronoi/candidate_star.h"
 #include "core/voronoi/cell.h"
 #include "core/voronoi/neighbors.h"
 
@@ -16,11 +18,14 @@ namespace wellspaced {
 /// Voronoi cell be?
 ///
 /// Guarantees: the cell is that of the candidate's own Delaunay neighbors, found again for each candidate:
-/// samples are gathered until everything within twice the cell's outradius is in hand. Thread safety: one
+/// samples are gathered until everything within twice the cell's outradius is in hand. Images of the
+/// candidate itself move along with it. Radii are right to 1e-12 where samples are spread out; what was asked
+/// before changes them by rounding only.
+/// Cost: 250 ns to turn to a sample, then about 60 ns for radii and 300 ns for a cell. Thread safety: one
 /// finder a thread; the grid is only read.
 class CellFinder {
  public:
-  /// `reach`: how far to look at first; about 2.5 times the spacing is cheapest. Requires: points and grid
+  /// `reach`: how far to look at first; about 2 times the spacing is cheapest. Requires: points and grid
   /// outlive it, as does the control, which is asked now and then in crowds. Errors of every other call:
   /// cancelled, deadline_exceeded.
   CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control);
@@ -37,12 +42,18 @@ class CellFinder {
 
   /// The cell itself; labels are indices into neighbors(). Valid until the next call.
   const Cell& cell_at(Vec2 u);
-  /// Samples around the loaded one, nearest first.
+  /// Samples around the loaded one, nearest first, as of cell_at.
   std::span<const Neighbor> neighbors() const { return neighbors_; }
 
  private:
+  enum class StarUse { not_loaded, loaded, unsuitable };
+
   void gather(double reach);
+  void sort_neighbors();
   void cut(Vec2 u);
+  void load_star();
+  std::optional<Radii> radii_by_star(Vec2 u);
+  Radii radii_by_clipping(Vec2 u);
 
   const PointSet* points_;
   const NeighborGrid* grid_;
@@ -53,6 +64,9 @@ class CellFinder {
   std::vector<Neighbor> neighbors_;
   std::vector<HalfPlane> half_planes_;
   Cell cell_;
+  CandidateStar star_;
+  StarUse star_use_ = StarUse::not_loaded;
+  bool is_flat_, sorted_ = false, has_own_images_ = false;
 };
 
 }  // namespace wellspaced
