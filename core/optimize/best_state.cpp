@@ -15,7 +15,7 @@ BestState::BestState(const PointSet& input, StarMesh& mesh, Control& control)
 }
 
 void BestState::record(int sweep, double fraction) {
-  note(sweep, fraction, narrow_ ? measure_apart() : mesh_.measure());
+  note(sweep, fraction, narrow_ ? measure_apart() : mesh_.measure(control_));
 }
 
 void BestState::record(int sweep, double fraction, MeshRadii radii) {

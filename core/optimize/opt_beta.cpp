@@ -78,6 +78,11 @@ PushPull targets_for(double beta, OptBetaOptions::Randomness randomness) {
   return targets;
 }
 
+/// Of a stage's sweeps: 1, 8, 64 and then twice as many each time. To measure takes as long as a sweep.
+bool is_recorded(int sweep) {
+  return sweep == 1 || sweep == 8 || (sweep >= 64 && (sweep & (sweep - 1)) == 0);
+}
+
 class Descent {
  public:
   Descent(StarMesh mesh, const PointSet& input, const OptBetaOptions& options, Control& control)
@@ -136,7 +141,10 @@ class Descent {
         flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
       }
-      if (sweep == 1 || sweep == 8 || sweep % 64 == 0) record();
+      if (is_recorded(sweep))
+        record();
+      else
+        report(history_.back());
       if (allowance.escalate && calm.lasts(count.moves, mesh_.size())) {
         targets.push = std::min(1.6, targets.push * 1.08);
         targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
@@ -182,7 +190,7 @@ class Descent {
   /// whose triangles would be measured for too large.
   void record() {
     if (sweeps_ > 0) flips_ += static_cast<double>(mesh_.legalize_all(control_));
-    const MeshRadii radii = mesh_.measure();
+    const MeshRadii radii = mesh_.measure(control_);
     const double beta = radii.outermost / radii.shortest, d = mesh_.spacing();
     if (!history_.empty() && history_.back().sweep == sweeps_) history_.pop_back();
     history_.push_back({sweeps_, beta, radii.outermost * d, radii.shortest * d});
@@ -190,8 +198,12 @@ class Descent {
       best_beta_ = beta;
       if (sweeps_ > 0) best_ = mesh_.places();
     }
-    control_.report(
-        {std::min(1.0, visits_ / budget_), sweeps_, beta, radii.outermost * d, radii.shortest * d});
+    report(history_.back());
+  }
+
+  /// How far the work is, and what was last measured.
+  void report(const SweepRecord& last) {
+    control_.report({std::min(1.0, visits_ / budget_), last.sweep, last.beta, last.r_c, last.r_f});
   }
 
   OptimizeResult result() {

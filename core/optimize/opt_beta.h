@@ -30,7 +30,7 @@ int allowed_visits(const OptBetaOptions& options);
 /// 20 points or their torus is thinner than 4 d_hex, else for a few sweeps that even them out.
 ///
 /// Guarantees: those of OptimizeResult; points that violate nothing on the way are returned bit for bit.
-/// `history` holds the sweeps 0, 1, 8 and every 64th of each stage, a sweep visiting only points that are
+/// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage, a sweep visiting only points that are
 /// marked. Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits;
 /// cancelled, deadline_exceeded. Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to
 /// .75, 40 to .70 where fast, two to three times as many where gentle; 110 bytes a point. Determinism: the

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/rng.h"
 #include "core/voronoi/gift_wrap.h"
 #include "core/voronoi/stars.h"
@@ -285,15 +286,30 @@ std::size_t StarMesh::legalize(Suspects& suspects) {
   return flips;
 }
 
-std::size_t StarMesh::legalize_all(const Control& control) {
-  Suspects suspects{everywhere()};
-  for (std::size_t i = 0; i < size(); ++i) {
+void StarMesh::legalize_strip(const Strip& strip, Suspects& suspects, const Control& control) {
+  for (std::uint32_t i = strip.begin; i < strip.end; ++i) {
     if (i % 65536 == 0) control.check();
     for (int k = 0; k < stars_[i].degree; ++k)
-      if (stars_[i].neighbor[k] > i) suspects.add(static_cast<std::uint32_t>(i), stars_[i].neighbor[k]);
+      if (stars_[i].neighbor[k] > i) suspects.add(i, stars_[i].neighbor[k]);
     legalize(suspects);
   }
-  return suspects.flips;
+}
+
+std::size_t StarMesh::legalize_all(const Control& control) {
+  std::vector<Suspects> work;
+  for (const Strip& strip : strips_) work.push_back({strip.territory});
+  for (std::size_t color = 0; color < 2; ++color)
+    parallel_blocks((strips_.size() + 1 - color) / 2, 1, control, [&](std::size_t k, std::size_t) {
+      const std::size_t s = 2 * k + color;
+      legalize_strip(strips_[s], work[s], control);
+    });
+  Suspects rest{everywhere()};
+  for (const Suspects& suspects : work) {
+    rest.edges.insert(rest.edges.end(), suspects.put_off.begin(), suspects.put_off.end());
+    rest.flips += suspects.flips;
+  }
+  legalize(rest);
+  return rest.flips;
 }
 
 // ---- marks
@@ -325,21 +341,29 @@ std::size_t StarMesh::take_marked(std::size_t from, std::size_t end) {
 
 // ---- results
 
-MeshRadii StarMesh::measure() const {
-  double shortest2 = std::numeric_limits<double>::infinity(), outermost2 = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Star& star = stars_[i];
-    Vec2 a = offset(i, star.neighbor[star.degree - 1]);
-    for (int k = 0; k < star.degree; ++k) {
-      const Vec2 b = offset(i, star.neighbor[k]);
-      shortest2 = std::min(shortest2, norm2(b));
-      // Each triangle once a corner: the circumradius is |a| |b| |a - b| / (2 cross(a, b)).
-      const double area2 = cross(a, b);
-      outermost2 = std::max(outermost2, norm2(a) * norm2(b) * norm2(a - b) / (4 * area2 * area2));
-      a = b;
+MeshRadii StarMesh::measure(const Control& control) const {
+  constexpr std::size_t block = 16384;
+  std::vector<MeshRadii> parts((size() + block - 1) / block);
+  parallel_blocks(size(), block, control, [&](std::size_t begin, std::size_t end) {
+    double shortest2 = std::numeric_limits<double>::infinity(), outermost2 = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Star& star = stars_[i];
+      Vec2 a = offset(i, star.neighbor[star.degree - 1]);
+      for (int k = 0; k < star.degree; ++k) {
+        const Vec2 b = offset(i, star.neighbor[k]);
+        shortest2 = std::min(shortest2, norm2(b));
+        // Each triangle once a corner: the circumradius is |a| |b| |a - b| / (2 cross(a, b)).
+        const double area2 = cross(a, b);
+        outermost2 = std::max(outermost2, norm2(a) * norm2(b) * norm2(a - b) / (4 * area2 * area2));
+        a = b;
+      }
     }
-  }
-  return {std::sqrt(shortest2), std::sqrt(outermost2)};
+    parts[begin / block] = {std::sqrt(shortest2), std::sqrt(outermost2)};
+  });
+  MeshRadii radii = parts[0];
+  for (const MeshRadii& part : parts)
+    radii = {std::min(radii.shortest, part.shortest), std::max(radii.outermost, part.outermost)};
+  return radii;
 }
 
 PointSet StarMesh::points(const PointSet& input) const {

@@ -133,7 +133,8 @@ class StarMesh {
   /// The first marked point in [from, end), its mark taken away; `end` if there is none.
   std::size_t take_marked(std::size_t from, std::size_t end);
 
-  MeshRadii measure() const;
+  /// Errors: cancelled, deadline_exceeded.
+  MeshRadii measure(const Control& control) const;
 
   /// The points in their original order and numbers; those that stand where they stood get their input
   /// coordinates back, bit for bit.
@@ -158,6 +159,7 @@ class StarMesh {
   PointSet to_points(const std::vector<FixedPoint>& places,
                      const std::shared_ptr<const Domain>& domain) const;
   void cut_strips(const GridOrder& order);
+  void legalize_strip(const Strip& strip, Suspects& suspects, const Control& control);
   bool try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects);
   void flip(std::uint32_t a, int k, Suspects& suspects);
   bool is_short_way(Vec2 edge) const;

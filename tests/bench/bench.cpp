@@ -98,8 +98,8 @@ Row candidate_cells() {
 
 Row stars() {
   const PointSet& points = mps(ten_thousand);
-  const auto work = [mesh = StarMesh(points, Control())](State&, Control&) {
-    benchmark::DoNotOptimize(mesh.measure());
+  const auto work = [mesh = StarMesh(points, Control())](State&, Control& control) {
+    benchmark::DoNotOptimize(mesh.measure(control));
   };
   return {"kernel/star", ten_thousand, {8, "ns", static_cast<double>(points.size())}, work, 9};
 }

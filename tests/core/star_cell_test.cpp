@@ -64,8 +64,8 @@ TEST(StarCell, ReportsTheRadiiOfTheMesh) {
     shortest2 = std::min(shortest2, m.shortest2);
     outermost2 = std::max(outermost2, m.outermost2);
   }
-  EXPECT_NEAR(std::sqrt(shortest2), mesh.measure().shortest, 1e-12);
-  EXPECT_NEAR(std::sqrt(outermost2), mesh.measure().outermost, 1e-9);
+  EXPECT_NEAR(std::sqrt(shortest2), mesh.measure(Control()).shortest, 1e-12);
+  EXPECT_NEAR(std::sqrt(outermost2), mesh.measure(Control()).outermost, 1e-9);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(StarMesh, MeasuresWhatTheAnalysisMeasures) {
   const Control control;
   const StarMesh mesh(input, control);
   const Spacing spacing = measure_spacing(input, control);
-  const MeshRadii radii = mesh.measure();
+  const MeshRadii radii = mesh.measure(control);
   EXPECT_NEAR(radii.shortest * mesh.spacing(), spacing.r_f, 1e-8);
   EXPECT_NEAR(radii.outermost * mesh.spacing(), spacing.r_c, 1e-8);
 }
