@@ -25,7 +25,7 @@ struct OptBetaLocalOptions {
 /// Guarantees: those of OptimizeResult.
 /// Errors: those of require_usable; infeasible or invalid_parameters at /beta, /max_sweeps, /damping;
 /// degenerate_input if the points are so clustered that their neighborhoods can't be searched locally;
-/// cancelled, deadline_exceeded. Cost: about 2.7 us a point and sweep. .85 takes 11 to 13 sweeps from MPS at
+/// cancelled, deadline_exceeded. Cost: about 2.7 us a point and sweep. .85 takes 14 to 23 sweeps from MPS at
 /// 10,000 points; below .80 it stalls. Determinism: sequential; the same bytes on any number of threads (only
 /// measuring is parallel). Reference: Ebeida et al. 2013, section 4, algorithm 1 (Opt-beta^i).
 OptimizeResult opt_beta_local(const PointSet& input, const OptBetaLocalOptions& options, Control& control);

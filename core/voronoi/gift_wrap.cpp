@@ -41,22 +41,14 @@ class Candidates {
  public:
   /// All points of the cells at most `ring` away from that of place i. Returns how far that surely reaches.
   double gather(const GridOrder& order, std::size_t i, int ring) {
-    size_ = 0;
     const double qx = order.x[i], qy = order.y[i];
     const auto column = static_cast<int>(order.column_of(qx)), row = static_cast<int>(order.row_of(qy));
-    const int columns = static_cast<int>(order.columns), rows = static_cast<int>(order.rows);
-    for (int r = row - ring; r <= row + ring; ++r) {
-      const double shift_y = r < 0 ? -order.height : r >= rows ? order.height : 0;
-      const int line = (r < 0 ? r + rows : r >= rows ? r - rows : r) * columns;
-      const int low = column - ring, high = column + ring;
-      if (low < 0) add(order, line + low + columns, line + columns, {qx, qy}, {-order.width, shift_y});
-      const std::size_t middle =
-          add(order, line + std::max(low, 0), line + std::min(high + 1, columns), {qx, qy}, {0, shift_y});
-      if (r == row) self_ = middle + i - order.start[static_cast<std::size_t>(line + std::max(low, 0))];
-      if (high >= columns) add(order, line, line + high + 1 - columns, {qx, qy}, {order.width, shift_y});
-    }
-    pad();
-    const double cell_x = order.width / columns, cell_y = order.height / rows;
+    if (column != column_ || row != row_ || ring != ring_) collect(order, column, row, ring);
+    look_from({qx, qy});
+    self_ = i - before_own_;
+    h_[self_] = infinite;  // it may never be met
+    const double cell_x = order.width / static_cast<double>(order.columns),
+                 cell_y = order.height / static_cast<double>(order.rows);
     const double x = qx - column * cell_x, y = qy - row * cell_y;
     const double inside = std::min({x, cell_x - x, y, cell_y - y});
     return (inside + ring * std::min(cell_x, cell_y)) * (1 - 1e-9);
@@ -105,34 +97,53 @@ class Candidates {
   Vec2 offset(std::size_t k) const { return {x_[k], y_[k]}; }
 
  private:
-  /// Appends the points of a run of cells. Returns where they begin.
-  std::size_t add(const GridOrder& order, int first_cell, int end_cell, Vec2 center, Vec2 shift) {
+  /// The points around a cell. Several points of it are looked at one after the other.
+  void collect(const GridOrder& order, int column, int row, int ring) {
+    column_ = column, row_ = row, ring_ = ring;
+    size_ = 0;
+    const int columns = static_cast<int>(order.columns), rows = static_cast<int>(order.rows);
+    for (int r = row - ring; r <= row + ring; ++r) {
+      const double shift_y = r < 0 ? -order.height : r >= rows ? order.height : 0;
+      const int line = (r < 0 ? r + rows : r >= rows ? r - rows : r) * columns;
+      const int low = column - ring, high = column + ring, first = line + std::max(low, 0);
+      if (low < 0) add(order, line + low + columns, line + columns, {-order.width, shift_y});
+      if (r == row) before_own_ = order.start[static_cast<std::size_t>(first)] - size_;
+      add(order, first, line + std::min(high + 1, columns), {0, shift_y});
+      if (high >= columns) add(order, line, line + high + 1 - columns, {order.width, shift_y});
+    }
+  }
+
+  /// Appends the points of a run of cells.
+  void add(const GridOrder& order, int first_cell, int end_cell, Vec2 shift) {
     const std::size_t begin = order.start[static_cast<std::size_t>(first_cell)];
     const std::size_t n = order.start[static_cast<std::size_t>(end_cell)] - begin;
     reserve(size_ + n + widest);
-    double *x = &x_[size_], *y = &y_[size_];
-    std::uint32_t* id = &id_[size_];
-    for (std::size_t k = 0; k < n; ++k) x[k] = (order.x[begin + k] - center.x) + shift.x;
-    for (std::size_t k = 0; k < n; ++k) y[k] = (order.y[begin + k] - center.y) + shift.y;
-    for (std::size_t k = 0; k < n; ++k) id[k] = static_cast<std::uint32_t>(begin + k);
+    std::copy_n(&order.x[begin], n, &place_x_[size_]);
+    std::copy_n(&order.y[begin], n, &place_y_[size_]);
+    std::fill_n(&shift_x_[size_], n, shift.x);
+    std::fill_n(&shift_y_[size_], n, shift.y);
+    for (std::size_t k = 0; k < n; ++k) id_[size_ + k] = static_cast<std::uint32_t>(begin + k);
     size_ += n;
-    return size_ - n;
   }
 
-  /// Squares; and neither the center itself nor the padding may ever be met.
-  void pad() {
-    for (std::size_t k = size_; k < size_ + widest; ++k) x_[k] = 0, y_[k] = 0;
-    for (std::size_t k = 0; k < size_; ++k) h_[k] = x_[k] * x_[k] + y_[k] * y_[k];
-    for (std::size_t k = size_; k < size_ + widest; ++k) h_[k] = infinite;
-    h_[self_] = infinite;
+  /// Offsets and their squares. The padding may never be met.
+  void look_from(Vec2 center) {
+    const Doubles d;
+    const auto cx = hn::Set(d, center.x), cy = hn::Set(d, center.y);
+    for (std::size_t k = 0; k < size_; k += hn::Lanes(d)) {
+      const auto x = hn::Add(hn::Sub(hn::LoadU(d, &place_x_[k]), cx), hn::LoadU(d, &shift_x_[k]));
+      const auto y = hn::Add(hn::Sub(hn::LoadU(d, &place_y_[k]), cy), hn::LoadU(d, &shift_y_[k]));
+      hn::StoreU(x, d, &x_[k]);
+      hn::StoreU(y, d, &y_[k]);
+      hn::StoreU(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), d, &h_[k]);
+    }
+    for (std::size_t k = size_; k < size_ + widest; ++k) x_[k] = 0, y_[k] = 0, h_[k] = infinite;
   }
 
   void reserve(std::size_t n) {
     if (n <= x_.size()) return;
     n = (2 * n + widest) / widest * widest;
-    x_.resize(n);
-    y_.resize(n);
-    h_.resize(n);
+    for (auto* values : {&place_x_, &place_y_, &shift_x_, &shift_y_, &x_, &y_, &h_}) values->resize(n);
     id_.resize(n);
   }
 
@@ -145,18 +156,22 @@ class Candidates {
     return {hn::GetLane(value), static_cast<std::size_t>(hn::GetLane(place))};
   }
 
-  std::vector<double> x_, y_, h_;
+  std::vector<double> place_x_, place_y_, shift_x_, shift_y_;  // around a cell
   std::vector<std::uint32_t> id_;
+  int column_ = -1, row_ = -1, ring_ = 0;
+  std::size_t before_own_ = 0;     // subtracted from a place of the cell itself, its index here
+  std::vector<double> x_, y_, h_;  // seen from one point
   std::size_t size_ = 0, self_ = 0;
 };
 
 /// The stars of the places from `begin` on, one after the other.
 class Wrapper {
  public:
-  Wrapper(const GridOrder& order, std::size_t begin, Star* stars)
+  Wrapper(const GridOrder& order, std::size_t begin, std::size_t end, Star* stars)
       : order_(order),
         begin_(begin),
         stars_(stars),
+        seen_by_(end - begin, nobody),
         collinear_(1e-12 * (order.width / order.columns) * (order.height / order.rows)) {}
 
   /// False: this way doesn't suit the point set.
@@ -181,16 +196,17 @@ class Wrapper {
  private:
   enum class Outcome { closed, open, crowded };
   static constexpr int most = Star::most;
+  static constexpr std::uint32_t nobody = ~0u;
 
   Outcome wrap_within(std::size_t i, double reach) {
-    const std::size_t nearest = candidates_.nearest();
+    const std::uint32_t known = seen_by_[i - begin_];
     std::uint32_t ring[2 * most + 1];
     int first = most, last = most;
-    ring[most] = candidates_.id(nearest);
+    ring[most] = known == nobody ? candidates_.id(candidates_.nearest()) : known;
     // Clockwise as far as earlier stars know the way.
-    while (known(ring[first], i)) {
+    for (int at; (at = place_in_earlier(ring[first], i)) >= 0;) {
       const Star& star = stars_[ring[first]];
-      const std::uint32_t next = star.neighbor[star.after(place_of(star, here(i)))];
+      const std::uint32_t next = star.neighbor[star.after(at)];
       if (next == ring[last]) return store(i, ring + first, last - first + 1);
       if (last - first + 1 == most) return Outcome::crowded;
       ring[--first] = next;
@@ -198,9 +214,9 @@ class Wrapper {
     // Counter-clockwise for the rest.
     for (;;) {
       std::uint32_t next;
-      if (known(ring[last], i)) {
+      if (const int at = place_in_earlier(ring[last], i); at >= 0) {
         const Star& star = stars_[ring[last]];
-        next = star.neighbor[star.before(place_of(star, here(i)))];
+        next = star.neighbor[star.before(at)];
       } else {
         const Vec2 u = order_.offset(i, ring[last]);
         const auto touch = candidates_.first_left_of(u, collinear_);
@@ -216,9 +232,11 @@ class Wrapper {
 
   static std::uint32_t here(std::size_t i) { return static_cast<std::uint32_t>(i); }
 
-  bool known(std::uint32_t neighbor, std::size_t i) const {
-    return neighbor >= begin_ && neighbor < i &&
-           place_of(stars_[neighbor], here(i)) < stars_[neighbor].degree;
+  /// Where a star that was wrapped before has i; -1 if nowhere.
+  int place_in_earlier(std::uint32_t neighbor, std::size_t i) const {
+    if (neighbor < begin_ || neighbor >= i) return -1;
+    const int at = place_of(stars_[neighbor], here(i));
+    return at < stars_[neighbor].degree ? at : -1;
   }
 
   Outcome store(std::size_t i, const std::uint32_t* ring, int degree) {
@@ -226,18 +244,21 @@ class Wrapper {
     Star& star = stars_[i];
     star.degree = degree;
     for (int k = 0; k < most; ++k) star.neighbor[k] = ring[k < degree ? k : 0];
+    for (int k = 0; k < degree; ++k)
+      if (ring[k] > i && ring[k] - begin_ < seen_by_.size()) seen_by_[ring[k] - begin_] = here(i);
     return Outcome::closed;
   }
 
   const GridOrder& order_;
   const std::size_t begin_;
   Star* const stars_;
+  std::vector<std::uint32_t> seen_by_;  // of each place, the latest earlier one that has it in its star
   const double collinear_;
   Candidates candidates_;
 };
 
 bool wrap_block(const GridOrder& order, std::size_t begin, std::size_t end, Star* stars) {
-  Wrapper wrapper(order, begin, stars);
+  Wrapper wrapper(order, begin, end, stars);
   for (std::size_t i = begin; i < end; ++i)
     if (!wrapper.wrap(i)) return false;
   return true;
