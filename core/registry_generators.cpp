@@ -137,7 +137,7 @@ const std::vector<Generator> generator_rows = {
       {count(true)}},
      true,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
-       return white_noise(std::move(domain), count_of(a), rng, control);
+       return white_noise(domain, count_of(a), rng, control);
      },
      counted,
      nullptr,

@@ -234,6 +234,19 @@ bool StarMesh::is_short_way(Vec2 edge) const {
   return std::abs(edge.x) < turn / 2 * scale_.x && std::abs(edge.y) < turn / 2 * scale_.y;
 }
 
+namespace {
+
+/// Whether `right` lies inside the circle through the point itself, b and `left`, counter-clockwise, by more
+/// than rounding.
+bool is_illegal(Vec2 b, Vec2 left, Vec2 right) {
+  const double b2 = norm2(b), left2 = norm2(left), right2 = norm2(right);
+  const double in_circle =
+      right2 * cross(b, left) - right.x * (left.y * b2 - b.y * left2) - right.y * (b.x * left2 - left.x * b2);
+  return in_circle < -1e-9 * b2 * b2;
+}
+
+}  // namespace
+
 bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
   Star& star = stars_[a];
   const int k = star.find(b);
@@ -245,11 +258,7 @@ bool StarMesh::try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects) {
     return false;
   }
   const Vec2 to_b = offset(a, b), to_left = offset(a, left), to_right = offset(a, right);
-  const double b2 = norm2(to_b), left2 = norm2(to_left), right2 = norm2(to_right);
-  // Negative: `right` lies inside the circle through a, b, left.
-  const double in_circle = right2 * cross(to_b, to_left) - to_right.x * (to_left.y * b2 - to_b.y * left2) -
-                           to_right.y * (to_b.x * left2 - to_left.x * b2);
-  if (!(in_circle < -1e-9 * b2 * b2)) return false;
+  if (!is_illegal(to_b, to_left, to_right)) return false;
   if (stars_[left].degree >= Star::most || stars_[right].degree >= Star::most) return false;
   if (star.degree <= 3 || stars_[b].degree <= 3) return false;
   if (!(cross(to_right, to_left) > 0)) return false;  // the quadrilateral is not convex
@@ -289,8 +298,14 @@ std::size_t StarMesh::legalize(Suspects& suspects) {
 void StarMesh::legalize_strip(const Strip& strip, Suspects& suspects, const Control& control) {
   for (std::uint32_t i = strip.begin; i < strip.end; ++i) {
     if (i % 65536 == 0) control.check();
-    for (int k = 0; k < stars_[i].degree; ++k)
-      if (stars_[i].neighbor[k] > i) suspects.add(i, stars_[i].neighbor[k]);
+    const Star& star = stars_[i];
+    Vec2 right = offset(i, star.neighbor[star.degree - 1]), middle = offset(i, star.neighbor[0]);
+    for (int k = 0; k < star.degree; ++k) {
+      const Vec2 left = offset(i, star.neighbor[star.after(k)]);
+      if (star.neighbor[k] > i && is_illegal(middle, left, right)) suspects.add(i, star.neighbor[k]);
+      right = middle;
+      middle = left;
+    }
     legalize(suspects);
   }
 }
