@@ -38,4 +38,19 @@ double portable_atan2(double y, double x) {
   return y < 0 ? -angle : angle;
 }
 
+double portable_log10(double x) {
+  constexpr double log10_of_2 = 0.301029995663981195, log10_of_e = 0.434294481903251828;
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);  // in [1/2, 1)
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
+  // log(m) = 2 artanh(s), |s| <= .172
+  const double s = (m - 1) / (m + 1), z = s * s;
+  double sum = 0;
+  for (int power = 25; power >= 3; power -= 2) sum = z * (1.0 / power + sum);
+  return exponent * log10_of_2 + 2 * log10_of_e * (s + s * sum);
+}
+
 }  // namespace wellspaced

@@ -9,6 +9,9 @@ namespace wellspaced {
 /// a result path goes through this header.
 double portable_atan2(double y, double x);
 
+/// Decimal logarithm of x > 0, finite. Accuracy: 4 ulp, and 1e-16 absolute near 1.
+double portable_log10(double x);
+
 inline constexpr double pi = 3.14159265358979323846;
 
 }  // namespace wellspaced

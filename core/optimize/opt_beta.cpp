@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "core/error.h"
 #include "core/optimize/calm.h"
 #include "core/optimize/opt_beta_local.h"
+#include "core/optimize/opt_beta_targets.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/voronoi/star_mesh.h"
 
@@ -22,6 +22,7 @@ namespace {
 // Lower targets than these melt the triangulation unless approached in steps.
 constexpr double surely_reached = 0.70, often_reached = 0.69;
 constexpr double floor_beta = 0.57735026918962573;
+constexpr int visits_to_sure_targets = 250, visits_to_all = 20000;  // a point
 
 void require_options(const OptBetaOptions& o) {
   if (!(o.beta >= floor_beta))
@@ -37,47 +38,6 @@ void require_options(const OptBetaOptions& o) {
     throw Error(ErrorCode::invalid_parameters, "at least one visit a point is needed", "/max_visits");
 }
 
-/// R_f in units of d_hex for a target, between the pairs that were found to work best.
-double target_r_f(double beta) {
-  constexpr std::array<std::pair<double, double>, 10> table = {{{1.0, .777},
-                                                                {.878, .82},
-                                                                {.788, .85},
-                                                                {.747, .87},
-                                                                {.716, .88},
-                                                                {.70, .895},
-                                                                {.6889, .90},
-                                                                {.6707, .92},
-                                                                {.64, .9447},
-                                                                {floor_beta, .9997}}};
-  std::size_t k = 0;
-  while (k + 2 < table.size() && beta < table[k + 1].first) ++k;
-  const auto [b0, r0] = table[k];
-  const auto [b1, r1] = table[k + 1];
-  return r0 + (r1 - r0) * (beta - b0) / (b1 - b0);
-}
-
-/// Targets a little stricter than asked for, since they are tested in float.
-PushPull targets_for(double beta) {
-  constexpr double tight = 1e-5;
-  PushPull targets;
-  const double r_f = target_r_f(beta);
-  targets.r_f = r_f * (1 + tight);
-  targets.r_c = beta * r_f * (1 - tight);
-  return targets;
-}
-
-PushPull targets_for(double beta, OptBetaOptions::Randomness randomness) {
-  PushPull targets = targets_for(beta);
-  if (beta > .73) {
-    const bool gentle = randomness == OptBetaOptions::Randomness::gentle;
-    targets.push = gentle ? .7 : .9;
-    targets.pull = gentle ? .7 : 2;
-  } else {
-    targets.push = beta > .709 ? 1.1 : 1.3;
-  }
-  return targets;
-}
-
 /// Of a stage's sweeps: 1, 8, 64 and then twice as many each time. To measure takes as long as a sweep.
 bool is_recorded(int sweep) {
   return sweep == 1 || sweep == 8 || (sweep >= 64 && (sweep & (sweep - 1)) == 0);
@@ -87,7 +47,9 @@ class Descent {
  public:
   Descent(StarMesh mesh, const PointSet& input, const OptBetaOptions& options, Control& control)
       : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.places()) {
+    constexpr double cheap = 1e5;  // visits in all that nobody notices
     budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
+    if (is_gentle() && !options.max_visits) budget_ = std::max(budget_, cheap);
     record();
   }
 
@@ -105,15 +67,18 @@ class Descent {
     bool escalate;         // raise the weights when nothing moves forward
   };
 
+  static constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+  bool is_gentle() const { return options_.randomness == OptBetaOptions::Randomness::gentle; }
+
   /// As far as can be got without steps. Returns the target that was reached, or 0 if the budget is used up.
   double leap() {
-    constexpr double flips_a_point = 20, visits_a_point = 200,
-                     no_limit = std::numeric_limits<double>::infinity();
+    constexpr double flips_a_point = 20, visits_a_point = 200;
     const auto n = static_cast<double>(mesh_.size());
     if (options_.beta < surely_reached) {
       const StarMesh::Snapshot start = mesh_.snapshot();
       const double boldly = std::max(options_.beta, often_reached);
-      PushPull targets = targets_for(boldly, options_.randomness);
+      PushPull targets = opt_beta_targets(boldly, options_.randomness);
       targets.look_across = true;
       const bool clean = relax(targets, {visits_a_point * n, flips_a_point * n, false});
       record();
@@ -121,9 +86,30 @@ class Descent {
       mesh_.restore(start);
     }
     const double first = std::max(options_.beta, surely_reached);
-    const bool clean = relax(targets_for(first, options_.randomness), {budget_, no_limit, true});
+    const bool clean = is_gentle()
+                           ? reach_gently(first)
+                           : relax(opt_beta_targets(first, options_.randomness), {budget_, no_limit, true});
     record();
     return clean ? first : 0;
+  }
+
+  /// Near gentle's radii a set may freeze, above all one of few points. It is then moved on by targets that
+  /// are easier to come to from there, however much randomness they cost.
+  bool reach_gently(double beta) {
+    struct Rescue {
+      double beta, push, pull;
+    };
+    constexpr std::array<Rescue, 5> rescues = {
+        {{1, 1.3, 2}, {.69, 1.6, 2}, {.70, 1.6, 2}, {.69, 1.3, 2}, {.68, 1.3, 1.7}}};
+    const double most = std::min(budget_, visits_to_sure_targets * static_cast<double>(mesh_.size()));
+    if (relax(opt_beta_targets(beta, options_.randomness), {.5 * most, no_limit, true})) return true;
+    for (std::size_t k = 0; visits_ < budget_; ++k) {
+      record();
+      const Rescue& rescue = rescues[k % rescues.size()];
+      const PushPull targets = opt_beta_targets(std::min(beta, rescue.beta), rescue.push, rescue.pull);
+      if (relax(targets, {.08 * most, no_limit, true})) return true;
+    }
+    return false;
   }
 
   /// Sweeps over marked points until nothing violates the targets. False: the allowance is used up.
@@ -165,8 +151,8 @@ class Descent {
     std::size_t choice = 0;
     for (int failures = 0; beta > options_.beta && visits_ < budget_;) {
       const double next = std::max(options_.beta, beta - step);
-      PushPull targets = targets_for(next);
-      std::tie(targets.push, targets.pull) = weights[choice];
+      const auto [push, pull] = weights[choice];
+      PushPull targets = opt_beta_targets(next, push, pull);
       targets.look_across = true;
       const double visits = std::max(700 * n, 430 * n + .12 * visits_);
       if (relax(targets, {visits, flips_a_point * n, false})) {
@@ -263,7 +249,7 @@ OptimizeResult one_after_the_other(OptimizeResult first, OptimizeResult second) 
 }  // namespace
 
 int allowed_visits(const OptBetaOptions& options) {
-  return options.max_visits.value_or(options.beta < surely_reached ? 20000 : 250);
+  return options.max_visits.value_or(options.beta < surely_reached ? visits_to_all : visits_to_sure_targets);
 }
 
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control) {

@@ -11,9 +11,9 @@ struct OptBetaOptions {
   enum class Randomness { gentle, fast };
 
   double beta = 0.75;                          ///< target for the global ratio, in [1/sqrt(3), 1)
-  Randomness randomness = Randomness::gentle;  ///< fast: half the time above .73, and less random
+  Randomness randomness = Randomness::gentle;  ///< fast: half the time, and less random
   std::optional<int> max_visits;  ///< visits a point after which the best state is returned; default: 250 for
-                                  ///< a beta of .70 or more, else 20,000
+                                  ///< a beta of .70 or more (gentle: at least 100,000 in all), else 20,000
 };
 
 /// What max_visits is when it is not given.
@@ -22,6 +22,14 @@ int allowed_visits(const OptBetaOptions& options);
 /// opt-beta, this project's own: the global ratio by absolute radii. Target radii R_f and R_c = beta R_f
 /// follow from beta; points that violate one are pushed and pulled until none does, on a Delaunay
 /// triangulation that is kept while they move.
+///
+/// Gentle aims at smaller radii than fast for the same beta, as small as it still gets to in good time. Of
+/// maximal Poisson-disk samplings it leaves spectra that oscillate less (see oscillations in
+/// core/analyze/spectrum.h; 10,000 points):
+///
+///     beta     .878  .85   .82   .788  .77   .747  .73   .716  .70   (input: 1.0)
+///     gentle   1.45  1.46  1.62  1.86  2.04  2.28  2.52  2.75  3.19  (1.61)
+///     fast                       2.36        2.69        2.91  3.39
 ///
 /// Below .70 beta is lowered step by step, each from the state that the last one reached; a step that fails
 /// is undone and tried again with other weights, then halved.
@@ -33,8 +41,8 @@ int allowed_visits(const OptBetaOptions& options);
 /// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage, a sweep visiting only points that are
 /// marked. Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits;
 /// cancelled, deadline_exceeded. Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to
-/// .75, 40 to .70 where fast, two to three times as many where gentle; 110 bytes a point. Determinism: the
-/// same on any number of threads; visits, not time, end it.
+/// .75, 40 to .70 where fast, 16, 50 and 45 where gentle; 110 bytes a point. Determinism: the same bits on
+/// any number of threads; visits, not time, end it.
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control);
 
 }  // namespace wellspaced

@@ -1,16 +1,21 @@
 // Time and memory of what users wait for, beside what CGAL alone takes for the same points in the same run.
 // wellspaced_bench [--short | --long] and Google Benchmark's own flags, such as --benchmark_filter.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "core/analyze/certificate.h"
+#include "core/analyze/periodogram.h"
 #include "core/analyze/spacing.h"
+#include "core/analyze/spectrum.h"
 #include "core/domain/torus.h"
 #include "core/generate/generate.h"
 #include "core/generate/poisson_disk.h"
@@ -37,6 +42,7 @@ struct Row {
   Work work;
   int repetitions = 5;
   unsigned threads = 1;
+  std::optional<CounterBar> counter_bar = {};
 };
 
 constexpr std::uint64_t ten_thousand = 10'000, hundred_thousand = 100'000, million = 1'000'000,
@@ -152,8 +158,41 @@ Row cgal_cells(std::uint64_t count) {
                 [](const PointSet& p, const Control&) { return cgal_lloyd(p); });
 }
 
+Row spectrum_of_points(std::uint64_t count, double bar) {
+  return of_set("periodogram to 2.5 sqrt n", count, bar, [](const PointSet& p, const Control& c) {
+    return spectrum(periodogram(p, static_cast<int>(2.5 * std::sqrt(static_cast<double>(p.size()))), c))
+        .power[1];
+  });
+}
+
+/// What gentle leaves of randomness, from so many sets of 10,000 points.
+Row randomness(double beta, int sets, const CounterBar& bar) {
+  const auto work = [=](State& state, Control& control) {
+    std::vector<Periodogram> periodograms;
+    double swing = 0, five_or_seven = 0;
+    for (int s = 1; s <= sets; ++s) {
+      const PointSet& input = mps(ten_thousand, static_cast<std::uint64_t>(s));
+      const PointSet points = opt_beta(input, {beta, OptBetaOptions::Randomness::gentle, {}}, control).points;
+      periodograms.push_back(periodogram(points, 640, control));
+      swing += oscillations(spectrum(periodograms.back())).value() / sets;
+      Spacing spacing = measure_spacing(points, control);
+      five_or_seven += 100 * static_cast<double>(spacing.valence[5] + spacing.valence[7]) /
+                       static_cast<double>(spacing.n) / sets;
+    }
+    const Spectrum mean = spectrum(average(periodograms), sets);
+    state.counters["oscillations"] = swing;
+    state.counters["5- and 7-valent %"] = five_or_seven;
+    state.counters["Nyquist"] = effective_nyquist(mean).value();
+    state.counters["off isotropy dB"] = std::fabs(mean_anisotropy_db(mean).value() + 10 * std::log10(sets));
+  };
+  char name[64];
+  std::snprintf(name, sizeof name, "gentle/10k/to %.3f/%d sets", beta, sets);
+  return {name, ten_thousand, {0, "s", 1}, work, 1, 1, bar};
+}
+
 std::vector<Row> short_rows() {
   using enum OptBetaOptions::Randomness;
+  using enum CounterBar::Sense;
   return {candidate_cells(),
           stars(),
           local_sweep(),
@@ -162,7 +201,15 @@ std::vector<Row> short_rows() {
           optimizing(ten_thousand, .747, .02),
           optimizing(ten_thousand, .70, .035),
           optimizing(ten_thousand, .69, .06),
-          optimizing(ten_thousand, .747, 0, 1, gentle),
+          optimizing(ten_thousand, .788, .036, 1, gentle),
+          optimizing(ten_thousand, .747, .06, 1, gentle),
+          optimizing(ten_thousand, .70, .07, 1, gentle),
+          randomness(.788, 5, {"oscillations", at_most, 2.3}),
+          randomness(.747, 5, {"oscillations", at_most, 2.65}),
+          randomness(.716, 5, {"oscillations", at_most, 2.85}),
+          randomness(.75, 5, {"5- and 7-valent %", at_least, 38}),
+          randomness(.75, 10, {"off isotropy dB", at_most, .4}),
+          spectrum_of_points(ten_thousand, .5),
           pushing(),
           lloyd(),
           analysis(ten_thousand, 0),
@@ -178,6 +225,8 @@ std::vector<Row> more_rows() {
           optimizing(million, .75, 2.2),
           optimizing(million, .75, 2.2 / 1.7, 2),
           optimizing(million, .70, 3.5),
+          optimizing(million, .70, 0, 1, OptBetaOptions::Randomness::gentle),
+          spectrum_of_points(million, 20),
           analysis(million, .2),
           proof(million, 1),
           cgal(million)};
@@ -185,8 +234,7 @@ std::vector<Row> more_rows() {
 
 std::vector<Row> long_rows() { return {optimizing(ten_thousand, .667, 30), optimizing(ten_million, .75, 0)}; }
 
-void add(const Row& row, std::map<std::string, Bar>& bars) {
-  bars[row.name] = row.bar;
+void add(const Row& row) {
   const auto run = [row](State& state) {
     struct Quiet final : Control {
       using Control::Control;
@@ -214,15 +262,20 @@ bool take_flag(int& argc, char** argv, const char* flag) {
 
 int main(int argc, char** argv) {
   const bool brief = take_flag(argc, argv, "--short"), everything = take_flag(argc, argv, "--long");
-  std::map<std::string, Bar> bars;
   std::vector<Row> rows = short_rows();
   const auto append = [&](std::vector<Row> more) { rows.insert(rows.end(), more.begin(), more.end()); };
   if (!brief) append(more_rows());
   if (everything) append(long_rows());
-  for (const Row& row : rows) add(row, bars);
+  std::map<std::string, Bar> bars;
+  std::map<std::string, CounterBar> counter_bars;
+  for (const Row& row : rows) {
+    bars[row.name] = row.bar;
+    if (row.counter_bar) counter_bars[row.name] = *row.counter_bar;
+    add(row);
+  }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  Table table(bars);
+  Table table(bars, counter_bars);
   benchmark::RunSpecifiedBenchmarks(&table);
   return 0;
 }

@@ -46,13 +46,23 @@ void Table::print(const std::string& name, const Row& row) {
   for (const double s : row.seconds) figures.push_back(s * scale_of(bar.unit) / bar.items);
   std::sort(figures.begin(), figures.end());
   const double median = figures[figures.size() / 2];
-  const bool held = bar.at_most == 0 || median <= bar.at_most;
-  missed_ += held ? 0 : 1;
   std::printf("%-34s %10.4g %-2s  [%.4g, %.4g]", name.c_str(), median, bar.unit.c_str(), figures.front(),
               figures.back());
-  if (bar.at_most > 0) std::printf("  bar %.4g: %s", bar.at_most, held ? "held" : "MISSED");
+  if (bar.at_most > 0) print_verdict("bar", bar.at_most, median <= bar.at_most);
+  if (const auto found = counter_bars_.find(name); found != counter_bars_.end()) {
+    const auto& [counter, sense, limit] = found->second;
+    const double value = row.counters.at(counter);
+    const bool at_most = sense == CounterBar::Sense::at_most;
+    print_verdict(counter + (at_most ? " at most" : " at least"), limit,
+                  at_most ? value <= limit : value >= limit);
+  }
   for (const auto& [counter, value] : row.counters) std::printf("  %s %.5g", counter.c_str(), value);
   std::printf("\n");
+}
+
+void Table::print_verdict(const std::string& what, double limit, bool held) {
+  missed_ += held ? 0 : 1;
+  std::printf("  %s %.4g: %s", what.c_str(), limit, held ? "held" : "MISSED");
 }
 
 void Table::Finalize() {

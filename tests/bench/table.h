@@ -15,10 +15,20 @@ struct Bar {
   double items = 1;    ///< a run has so many
 };
 
+/// A bar for one of a row's counters, in place of its time.
+struct CounterBar {
+  enum class Sense { at_most, at_least };
+
+  std::string counter;
+  Sense sense = Sense::at_most;
+  double limit = 0;
+};
+
 /// Shows, once all has run, one line a benchmark: median with its spread, the bar, and the counters.
 class Table final : public benchmark::BenchmarkReporter {
  public:
-  explicit Table(std::map<std::string, Bar> bars) : bars_(std::move(bars)) {}
+  Table(std::map<std::string, Bar> bars, std::map<std::string, CounterBar> counter_bars)
+      : bars_(std::move(bars)), counter_bars_(std::move(counter_bars)) {}
 
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override;
@@ -32,8 +42,10 @@ class Table final : public benchmark::BenchmarkReporter {
     std::string failure;
   };
   void print(const std::string& name, const Row& row);
+  void print_verdict(const std::string& what, double limit, bool held);
 
   std::map<std::string, Bar> bars_;
+  std::map<std::string, CounterBar> counter_bars_;
   std::vector<std::string> order_;
   std::map<std::string, Row> rows_;
   int missed_ = 0;

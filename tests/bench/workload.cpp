@@ -3,6 +3,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/domain/torus.h"
 #include "core/generate/generate.h"
@@ -10,14 +11,14 @@
 
 namespace wellspaced::bench {
 
-const PointSet& mps(std::uint64_t count) {
-  static std::map<std::uint64_t, PointSet> made;
-  auto found = made.find(count);
+const PointSet& mps(std::uint64_t count, std::uint64_t seed) {
+  static std::map<std::pair<std::uint64_t, std::uint64_t>, PointSet> made;
+  auto found = made.find({count, seed});
   if (found == made.end()) {
-    Rng rng(1);
+    Rng rng(seed);
     Control control(2);
-    found = made.emplace(count, poisson_disk(std::make_shared<Torus>(), {poisson_disk_radius(1, count)}, rng,
-                                             control))
+    found = made.emplace(std::pair(count, seed), poisson_disk(std::make_shared<Torus>(),
+                                                              {poisson_disk_radius(1, count)}, rng, control))
                 .first;
   }
   return found->second;

@@ -27,6 +27,18 @@ TEST(PortableAtan2, IsRightOnTheAxes) {
   EXPECT_DOUBLE_EQ(portable_atan2(0, -1), pi);
 }
 
+TEST(PortableLog10, AgreesWithLibm) {
+  Rng rng(2);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = std::pow(10, 600 * rng.uniform() - 300), near_one = 1 + 0.1 * (rng.uniform() - 0.5);
+    EXPECT_NEAR(portable_log10(x), std::log10(x), 8e-16 * std::fabs(std::log10(x))) << x;
+    EXPECT_NEAR(portable_log10(near_one), std::log10(near_one), 1e-16) << near_one;
+  }
+  EXPECT_EQ(portable_log10(1), 0);
+  EXPECT_DOUBLE_EQ(portable_log10(1000), 3);
+  EXPECT_DOUBLE_EQ(portable_log10(5e-324), std::log10(5e-324));
+}
+
 TEST(Rng, DrawsTheSameNumbersEverywhere) {
   Rng rng(42);
   const std::uint64_t first = rng.next();

@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "core/analyze/periodogram.h"
 #include "core/analyze/spacing.h"
+#include "core/analyze/spectrum.h"
 #include "core/generate/generate.h"
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
@@ -54,6 +57,34 @@ TEST(OptBeta, ReachesSeventyHundredthsOnManySizesAndTori) {
         EXPECT_EQ(result.converged, true);
         EXPECT_LE(measure_spacing(result.points, control).beta, 0.70);
       }
+}
+
+TEST(OptBeta, GentlyReachesItsTargetFromTwentyPointsOn) {
+  Control control;
+  for (const std::uint64_t count : {20, 22, 25, 30, 40})
+    for (const double beta : {0.70, 0.705, 0.71, 0.72, 0.735, 0.75})
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(::testing::Message() << count << " points to " << beta << ", seed " << seed);
+        const PointSet input = mps(count, seed);
+        if (input.size() < 20) continue;  // too few for a mesh
+        const OptimizeResult result = opt_beta(input, to(beta), control);
+        EXPECT_EQ(result.converged, true);
+        EXPECT_LE(measure_spacing(result.points, control).beta, beta);
+      }
+}
+
+TEST(OptBeta, LeavesACalmerSpectrumWhereGentle) {
+  Control control(2);
+  const auto swing = [&](const PointSet& points) {
+    return oscillations(spectrum(periodogram(points, 360, control))).value();
+  };
+  const PointSet input = mps(3000, 6);
+  const double before = swing(input);
+  for (const auto& [beta, most] : {std::pair{0.85, before}, {0.788, 2.1}, {0.747, 2.5}, {0.716, 2.85}}) {
+    const double gentle = swing(opt_beta(input, to(beta), control).points);
+    EXPECT_LT(gentle, most) << beta;
+    EXPECT_LT(gentle, swing(opt_beta(input, to(beta, Randomness::fast), control).points)) << beta;
+  }
 }
 
 TEST(OptBeta, DescendsBelowTheFieldsFloor) {
