@@ -194,7 +194,8 @@ class Descent {
 
   OptimizeResult result() {
     for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
-    OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_)};
+    OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_),
+                          visits_ / static_cast<double>(mesh_.size())};
     // What the mesh says of its places is right for the points to within this, but for points in a line.
     constexpr double rounding = 1e-6;
     const double before = result.history.front().beta;
