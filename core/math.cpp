@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace wellspaced {
 namespace {
@@ -28,6 +29,17 @@ double atan_unit(double t) {
   return atan_of_eighths[static_cast<std::size_t>(k)] + (s + s * sum);
 }
 
+/// Cosine and sine on [0, pi / 4], by their series.
+CosSin cos_sin_of_eighth(double angle) {
+  const double z = angle * angle;
+  double cos = 0, sin = 0;
+  for (int power = 18; power >= 2; power -= 2) {
+    cos = z / (power * (power - 1)) * (1 - cos);
+    sin = z / (power * (power + 1)) * (1 - sin);
+  }
+  return {1 - cos, angle - angle * sin};
+}
+
 }  // namespace
 
 double portable_atan2(double y, double x) {
@@ -51,6 +63,19 @@ double portable_log10(double x) {
   double sum = 0;
   for (int power = 25; power >= 3; power -= 2) sum = z * (1.0 / power + sum);
   return exponent * log10_of_2 + 2 * log10_of_e * (s + s * sum);
+}
+
+CosSin portable_cos_sin(std::uint64_t k, std::uint64_t n) {
+  const std::uint64_t quarter = 4 * k / n, rest = 4 * k - quarter * n;  // rest / n of a quarter turn
+  const bool beyond = 2 * rest > n;                                     // an eighth: count from the other end
+  const double part = static_cast<double>(beyond ? n - rest : rest) / static_cast<double>(n);
+  auto [cos, sin] = cos_sin_of_eighth(pi / 2 * part);
+  if (beyond) std::swap(cos, sin);
+  for (std::uint64_t turn = 0; turn < quarter; ++turn) {
+    std::swap(cos, sin);
+    cos = -cos;
+  }
+  return {cos, sin};
 }
 
 }  // namespace wellspaced

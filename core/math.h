@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace wellspaced {
 
 /// Angle of the vector (x, y) in radians, in [-pi, pi]; 0 for (0, 0).
@@ -11,6 +13,14 @@ double portable_atan2(double y, double x);
 
 /// Decimal logarithm of x > 0, finite. Accuracy: 4 ulp, and 1e-16 absolute near 1.
 double portable_log10(double x);
+
+struct CosSin {
+  double cos = 1, sin = 0;
+};
+
+/// Cosine and sine of k n-ths of a whole turn, k < n < 2^60. Accuracy: 1e-16 absolute; exact at quarter
+/// turns.
+CosSin portable_cos_sin(std::uint64_t k, std::uint64_t n);
 
 inline constexpr double pi = 3.14159265358979323846;
 

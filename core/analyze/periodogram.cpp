@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
-#include <utility>
+#include <string>
 
-#include <fftw3.h>
-
+#include "core/analyze/periodogram_fft.h"
 #include "core/analyze/periodogram_kernel.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -16,62 +14,26 @@ namespace wellspaced {
 namespace {
 
 constexpr std::size_t reach = SpreadingKernel::reach;
-constexpr std::size_t band = 32;  // rows that are spread and transformed together; more than a point reaches
-constexpr std::size_t padding =
-    16;  // places behind a row: for points that reach over its end, and FFTW's two
+constexpr std::size_t width = FourierTransform::side_by_side, stride = FourierTransform::stride;
+constexpr std::size_t band =
+    stride;  // rows that are spread and transformed together, two reals as one complex
+static_assert(band >= reach);
 
 /// Places of the grid along a side: a multiple of `band`, at least two bands, at least twice the number of
-/// frequencies, without prime factors above 5.
+/// frequencies.
 std::size_t grid_size(int k_max) {
   const std::size_t wanted = 2 * (2 * static_cast<std::size_t>(k_max) + 1);
-  for (std::size_t bands = std::max<std::size_t>(2, (wanted + band - 1) / band);; ++bands) {
-    std::size_t rest = bands;
-    for (const std::size_t prime : {2, 3, 5})
-      while (rest % prime == 0) rest /= prime;
-    if (rest == 1) return bands * band;
-  }
+  std::size_t bands = std::max<std::size_t>(2, (wanted + band - 1) / band);
+  while (!FourierTransform::takes(bands)) ++bands;
+  return bands * band;
 }
+
+/// Columns are transformed in groups.
+std::size_t column_groups(int k_max) { return static_cast<std::size_t>(k_max) / width + 1; }
 
 using Doubles = std::unique_ptr<double[]>;
 
 Doubles doubles(std::size_t count) { return std::make_unique_for_overwrite<double[]>(count); }
-
-fftw_complex* as_complex(double* values) { return reinterpret_cast<fftw_complex*>(values); }
-
-/// FFTW's transforms of one row, in place. Its planner is not thread-safe. Neither time nor vector units
-/// decide on a plan, so that it's the same on every CPU.
-class Transform {
- public:
-  enum class Kind { of_reals, of_complex };
-
-  Transform(Kind kind, std::size_t size) {
-    constexpr unsigned flags = FFTW_ESTIMATE | FFTW_NO_SIMD | FFTW_UNALIGNED;
-    const Doubles row = doubles(2 * size + 2);
-    const auto n = static_cast<int>(size);
-    const std::lock_guard lock(planner());
-    plan_ = kind == Kind::of_reals
-                ? fftw_plan_dft_r2c_1d(n, row.get(), as_complex(row.get()), flags)
-                : fftw_plan_dft_1d(n, as_complex(row.get()), as_complex(row.get()), FFTW_FORWARD, flags);
-    if (plan_ == nullptr) throw Error(ErrorCode::internal, "no plan for a Fourier transform");
-  }
-  ~Transform() {
-    const std::lock_guard lock(planner());
-    fftw_destroy_plan(plan_);
-  }
-  Transform(const Transform&) = delete;
-  Transform& operator=(const Transform&) = delete;
-
-  void reals(double* row) const { fftw_execute_dft_r2c(plan_, row, as_complex(row)); }
-  void complex(double* row) const { fftw_execute_dft(plan_, as_complex(row), as_complex(row)); }
-
- private:
-  static std::mutex& planner() {
-    static std::mutex mutex;
-    return mutex;
-  }
-
-  fftw_plan plan_;
-};
 
 /// Where a point reaches along one axis: the places first, first + 1, ..; `t` as SpreadingKernel takes it.
 struct Footprint {
@@ -113,42 +75,35 @@ class Work {
   Work(const PointSet& points, int k_max)
       : k_max_(static_cast<std::size_t>(k_max)),
         size_(grid_size(k_max)),
+        transform_(size_),
         binned_(bin(points, size_)),
-        columns_(doubles(2 * size_ * (k_max_ + 1))) {}
+        columns_(doubles(column_groups(k_max) * size_ * stride)) {}
 
   /// Spreads the points over each band of rows and transforms it along x.
   void rows(const Control& control) {
-    const Transform transform(Transform::Kind::of_reals, size_);
     parallel_blocks(size_ / band, 1, control, [&](std::size_t b, std::size_t) {
-      const Doubles rows = doubles(band * stride());
-      std::fill(rows.get(), rows.get() + band * stride(), 0.0);
+      const std::size_t length = (size_ + reach) * band;
+      const Doubles rows = doubles(length), scratch = doubles(size_ * stride);
+      std::fill(rows.get(), rows.get() + length, 0.0);
       spread(b == 0 ? size_ / band - 1 : b - 1, b, rows.get());
       spread(b, b, rows.get());
-      for (std::size_t r = 0; r < band; ++r) {
-        double* row = rows.get() + r * stride();
-        for (std::size_t x = 0; x < reach; ++x) row[x] += row[size_ + x];
-        transform.reals(row);
-      }
-      for (std::size_t k = 0; k <= k_max_; ++k)
-        for (std::size_t r = 0; r < band; ++r)
-          std::copy_n(rows.get() + r * stride() + 2 * k, 2, columns_.get() + 2 * (k * size_ + b * band + r));
+      for (std::size_t i = 0; i < reach * band; ++i) rows[i] += rows[size_ * band + i];
+      keep(transform_.run(rows.get(), scratch.get()), b);
     });
   }
 
   /// Transforms along y, and takes the squares.
   void columns(Periodogram& result, const Control& control) {
-    constexpr std::size_t block = 4;
-    const Transform transform(Transform::Kind::of_complex, size_);
     const std::vector<double> scale = scales();
-    parallel_blocks(k_max_ + 1, block, control, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t kx = begin; kx < end; ++kx) {
-        double* column = columns_.get() + 2 * kx * size_;
-        transform.complex(column);
+    parallel_blocks(column_groups(result.k_max), 1, control, [&](std::size_t group, std::size_t) {
+      const Doubles scratch = doubles(size_ * stride);
+      const double* found = transform_.run(columns_.get() + group * size_ * stride, scratch.get());
+      for (std::size_t kx = group * width; kx < std::min((group + 1) * width, k_max_ + 1); ++kx) {
         double* power = result.power.data() + kx * (2 * k_max_ + 1);
         for (std::size_t y = 0; y <= 2 * k_max_; ++y) {
-          const std::size_t ky = y < k_max_ ? size_ + y - k_max_ : y - k_max_;
-          const double re = column[2 * ky], im = column[2 * ky + 1];
-          power[y] = (re * re + im * im) * scale[kx] * scale[y < k_max_ ? k_max_ - y : y - k_max_] / result.n;
+          const std::size_t ky = y < k_max_ ? k_max_ - y : y - k_max_;
+          const double* f = found + (y < k_max_ ? size_ - ky : ky) * stride + kx % width;
+          power[y] = (f[0] * f[0] + f[width] * f[width]) * scale[kx] * scale[ky] / result.n;
         }
       }
     });
@@ -156,20 +111,38 @@ class Work {
   }
 
  private:
-  std::size_t stride() const { return size_ + padding; }
-
-  /// Adds the points whose rows begin in band `from` to the rows of band `to`.
+  /// Adds the points whose rows begin in band `from` to the rows of band `to`, which lie side by side.
   void spread(std::size_t from, std::size_t to, double* rows) const {
     for (std::size_t i = binned_.begin[from]; i < binned_.begin[from + 1]; ++i) {
       const Footprint x = footprint(binned_.places[i].x, size_), y = footprint(binned_.places[i].y, size_);
       const SpreadingKernel::Values along_x = kernel_.at(x.t), along_y = kernel_.at(y.t);
+      const std::size_t row = y.first % band;  // in its own band
+      const std::size_t begin = from == to ? 0 : band - row,
+                        end = from == to ? std::min(reach, band - row) : reach;
       for (std::size_t j = 0; j < reach; ++j) {
-        const std::size_t row = (y.first + j >= size_ ? y.first + j - size_ : y.first + j) - to * band;
-        if (row >= band) continue;
-        double* places = rows + row * stride() + x.first;
-        for (std::size_t k = 0; k < reach; ++k) places[k] += along_y[j] * along_x[k];
+        double* places = rows + (x.first + j) * band + (from == to ? row : 0);
+        for (std::size_t k = begin; k < end; ++k) places[k - begin] += along_x[j] * along_y[k];
       }
     }
+  }
+
+  /// Of the transform of band b, what is wanted: series l is row l and i times row l + width.
+  void keep(const double* found, std::size_t b) {
+    for (std::size_t k = 0; k <= k_max_; ++k) {
+      const double *here = found + k * stride, *mirrored = found + (k == 0 ? 0 : size_ - k) * stride;
+      double* to = columns_.get() + ((k / width) * size_ + b * band) * stride + k % width;
+      for (std::size_t l = 0; l < width; ++l) {
+        double *first = to + l * stride, *second = to + (l + width) * stride;
+        first[0] = (here[l] + mirrored[l]) / 2;
+        first[width] = (here[l + width] - mirrored[l + width]) / 2;
+        second[0] = (here[l + width] + mirrored[l + width]) / 2;
+        second[width] = (mirrored[l] - here[l]) / 2;
+      }
+    }
+    for (std::size_t k = k_max_ + 1; k % width != 0; ++k)  // columns that nobody asked for
+      for (std::size_t r = 0; r < band; ++r)
+        for (const std::size_t part : {std::size_t{0}, width})
+          columns_[((k / width) * size_ + b * band + r) * stride + k % width + part] = 0;
   }
 
   /// What spreading did to the square of each frequency, to be undone.
@@ -184,8 +157,9 @@ class Work {
 
   const std::size_t k_max_, size_;
   const SpreadingKernel kernel_;
+  const FourierTransform transform_;
   const Binned binned_;
-  const Doubles columns_;  ///< complex, one column a kx
+  const Doubles columns_;  ///< group by group of kx, as the transform wants them
 };
 
 }  // namespace
@@ -207,9 +181,9 @@ Periodogram periodogram(const PointSet& points, int k_max, const Control& contro
 
 std::uint64_t periodogram_bytes(std::size_t n, int k_max, unsigned threads) {
   const std::uint64_t size = grid_size(k_max), k = static_cast<std::uint64_t>(k_max);
-  const std::uint64_t columns = 16 * size * (k + 1), power = 8 * (k + 1) * (2 * k + 1);
-  const std::uint64_t rows = 8 * band * (size + padding) * threads;
-  return 16 * std::uint64_t{n} + columns + std::max(power, rows) + 64 * size;
+  const std::uint64_t columns = 8 * stride * size * column_groups(k_max), power = 8 * (k + 1) * (2 * k + 1);
+  const std::uint64_t working = 8 * (2 * size + reach) * stride * threads;
+  return 16 * std::uint64_t{n} + 24 * size + columns + power + working;
 }
 
 }  // namespace wellspaced

@@ -33,9 +33,9 @@ inline constexpr int largest_k_max = 1 << 15;
 ///
 /// Guarantees: |error| <= 1e-9 max(1, P). Requires: finite points in their domain. Errors: degenerate_input
 /// without points; invalid_parameters at /k_max outside [1, largest_k_max]; cancelled, deadline_exceeded.
-/// Cost: n spreading steps of 0.2 us and a Fourier transform of about (4 k_max)^2 places, of which the half
+/// Cost: n spreading steps of 0.3 us and a Fourier transform of about (4 k_max)^2 places, of which the half
 /// is pruned; `periodogram_bytes` of memory. Determinism: the same bits on any number of threads; plain IEEE
-/// arithmetic in a fixed order, without vector units of a certain width. Reference: Fessler and Sutton,
+/// arithmetic in a fixed order, the same on any vector width. Reference: Fessler and Sutton,
 /// "Nonuniform Fast Fourier Transforms Using Min-Max Interpolation", 2003, for the Kaiser-Bessel kernel;
 /// Barnett, Magland, af Klinteberg, "A Parallel Nonuniform Fast Fourier Transform Library", 2019.
 Periodogram periodogram(const PointSet& points, int k_max, const Control& control);

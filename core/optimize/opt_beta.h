@@ -11,7 +11,7 @@ struct OptBetaOptions {
   enum class Randomness { gentle, fast };
 
   double beta = 0.75;                          ///< target for the global ratio, in [1/sqrt(3), 1)
-  Randomness randomness = Randomness::gentle;  ///< fast: half the time, and less random
+  Randomness randomness = Randomness::gentle;  ///< fast: about half the time, and less random
   std::optional<int> max_visits;  ///< visits a point after which the best state is returned; default: 250 for
                                   ///< a beta of .70 or more (gentle: at least 100,000 in all), else 20,000
 };
@@ -28,7 +28,7 @@ int allowed_visits(const OptBetaOptions& options);
 /// core/analyze/spectrum.h; 10,000 points):
 ///
 ///     beta     .878  .85   .82   .788  .77   .747  .73   .716  .70   (input: 1.0)
-///     gentle   1.45  1.46  1.62  1.86  2.04  2.28  2.52  2.75  3.19  (1.61)
+///     gentle   1.45  1.47  1.63  1.87  2.05  2.28  2.54  2.78  3.19  (1.61)
 ///     fast                       2.36        2.69        2.91  3.39
 ///
 /// Below .70 beta is lowered step by step, each from the state that the last one reached; a step that fails
@@ -41,7 +41,7 @@ int allowed_visits(const OptBetaOptions& options);
 /// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage, a sweep visiting only points that are
 /// marked. Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits;
 /// cancelled, deadline_exceeded. Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to
-/// .75, 40 to .70 where fast, 16, 50 and 45 where gentle; 110 bytes a point. Determinism: the same bits on
+/// .75, 40 to .70 where fast, 15, 40 and 45 where gentle; 110 bytes a point. Determinism: the same bits on
 /// any number of threads; visits, not time, end it.
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control);
 

@@ -39,6 +39,25 @@ TEST(PortableLog10, AgreesWithLibm) {
   EXPECT_DOUBLE_EQ(portable_log10(5e-324), std::log10(5e-324));
 }
 
+TEST(PortableCosSin, AgreesWithLibmAllAround) {
+  for (const std::uint64_t n : {1u, 2u, 3u, 5u, 8u, 12u, 1000u, 10240u})
+    for (std::uint64_t k = 0; k < n; ++k) {
+      const auto [cos, sin] = portable_cos_sin(k, n);
+      const long double angle =
+          2 * std::acos(-1.0L) * static_cast<long double>(k) / static_cast<long double>(n);
+      EXPECT_NEAR(cos, static_cast<double>(std::cos(angle)), 1.2e-16) << k << "/" << n;
+      EXPECT_NEAR(sin, static_cast<double>(std::sin(angle)), 1.2e-16) << k << "/" << n;
+    }
+}
+
+TEST(PortableCosSin, IsExactAtQuarterTurns) {
+  const double cos[] = {1, 0, -1, 0}, sin[] = {0, 1, 0, -1};
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(portable_cos_sin(3 * k, 12).cos, cos[k]);
+    EXPECT_EQ(portable_cos_sin(3 * k, 12).sin, sin[k]);
+  }
+}
+
 TEST(Rng, DrawsTheSameNumbersEverywhere) {
   Rng rng(42);
   const std::uint64_t first = rng.next();

@@ -9,10 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analyze/periodogram_fft.h"
 #include "core/analyze/periodogram_kernel.h"
 #include "core/generate/lattice.h"
 #include "core/math.h"
 #include "tests/support/oracle.h"
+#include "tests/support/vector_widths.h"
 
 namespace wellspaced {
 namespace {
@@ -114,11 +116,13 @@ TEST(Periodogram, OfTheSharedSetsIsWhatAnotherProgramFound) {
     expect_file(folder, folder, name);
 }
 
-TEST(Periodogram, IsTheSameOnAnyNumberOfThreads) {
+TEST(Periodogram, IsTheSameOnAnyNumberOfThreadsAndAnyVectorWidth) {
   const PointSet points = random_points(1, 1, 3000, 5);
   const std::vector<double> one = periodogram(points, 90, Control(1)).power;
   for (const unsigned threads : {2u, 3u, 8u})
     EXPECT_EQ(periodogram(points, 90, Control(threads)).power, one) << threads;
+  testing::on_every_vector_width(
+      [&](const std::string& name) { EXPECT_EQ(periodogram(points, 90, Control(2)).power, one) << name; });
 }
 
 TEST(Periodogram, TellsItsMemory) {
@@ -139,6 +143,32 @@ TEST(Periodogram, RefusesWhatCannotBe) {
   Control cancelled;
   cancelled.cancel();
   expect_error([&] { periodogram(points, 5, cancelled); }, ErrorCode::cancelled, "");
+}
+
+TEST(FourierTransform, IsTheSumOverAllElements) {
+  constexpr std::size_t lanes = FourierTransform::side_by_side, stride = FourierTransform::stride;
+  Rng rng(9);
+  for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 8u, 12u, 15u, 32u, 45u, 100u, 480u}) {
+    SCOPED_TRACE(n);
+    std::vector<double> elements(n * stride), scratch(n * stride);
+    for (double& e : elements) e = rng.uniform() - 0.5;
+    const std::vector<double> input = elements;
+    const double* found = FourierTransform(n).run(elements.data(), scratch.data());
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        std::complex<double> sum = 0;
+        for (std::size_t j = 0; j < n; ++j)
+          sum += std::complex(input[j * stride + lane], input[j * stride + lanes + lane]) *
+                 std::polar(1.0, -2 * pi * static_cast<double>(j * k % n) / static_cast<double>(n));
+        EXPECT_NEAR(found[k * stride + lane], sum.real(), 1e-13);
+        EXPECT_NEAR(found[k * stride + lanes + lane], sum.imag(), 1e-13);
+      }
+  }
+}
+
+TEST(FourierTransform, TakesProductsOfTwoThreeAndFive) {
+  for (const std::size_t n : {1u, 2u, 30u, 10240u}) EXPECT_TRUE(FourierTransform::takes(n)) << n;
+  for (const std::size_t n : {0u, 7u, 22u, 10241u}) EXPECT_FALSE(FourierTransform::takes(n)) << n;
 }
 
 TEST(SpreadingKernel, IsKaisersAndBesselsWindow) {

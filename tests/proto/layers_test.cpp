@@ -21,7 +21,6 @@ const std::vector<Rule> rules = {
     {"\"proto/", {"proto/", "server/"}},
     {"\"server/", {"server/"}},
     {"<CGAL/", {"core/voronoi/delaunay.cpp"}},
-    {"<fftw3", {"core/analyze/periodogram.cpp"}},
     {"<httplib", {"server/http/"}},
     {"<nlohmann/", {"proto/", "server/"}},
     {"<spdlog/", {"server/"}},
