@@ -48,8 +48,8 @@ Parameter randomness() {
   p.name = "randomness";
   p.type = Parameter::Type::choice;
   p.description =
-      "How to go about it: gentle keeps more of the input's randomness, fast takes about half the time; below "
-      "0.69 both do the same";
+      "How to go about it: gentle keeps more of the input's randomness, fast takes about half the time; "
+      "below 0.69 both do the same";
   p.choices = {"gentle", "fast"};
   p.maximum = 1;
   p.fallback = "\"gentle\"";

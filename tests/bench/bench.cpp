@@ -102,7 +102,7 @@ Row speedup(std::uint64_t count, double beta) {
     const double one = seconds(1);
     state.counters["speedup"] = one / seconds(2);
   };
-  return {"opt-beta/" + words(count) + "/2 threads over one", count, {0, "s", 1}, work, 1, 1,
+  return {"opt-beta/" + words(count) + "/2 threads over one",     count, {0, "s", 1}, work, 1, 1,
           CounterBar{"speedup", CounterBar::Sense::at_least, 1.7}};
 }
 
