@@ -1,5 +1,8 @@
 #include "core/voronoi/candidate_star.h"
 
+// Under sanitizers AVX-512 gave other last bits than all other units; until it is known why, it is left out.
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
+
 #include <algorithm>
 #include <bit>
 #include <limits>
