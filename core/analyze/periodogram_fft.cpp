@@ -12,6 +12,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -109,6 +110,7 @@ void run_stage(int radix, std::size_t done, std::size_t rest, const double* root
   if (radix == 5) stage<5>(done, rest, roots, from, to);
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

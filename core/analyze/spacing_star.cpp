@@ -34,6 +34,7 @@ struct SpokeRow {
 
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -100,6 +101,7 @@ StarMeasure measure_star_here(std::size_t i, std::span<const Spoke> spokes) {
           static_cast<int>(spokes.size())};
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Doubles = hn::CappedTag<double, CellWindow::readable_beyond>;
@@ -106,6 +107,7 @@ void halve_deep(const SampleGrid& grid, std::span<const DeepCell> cells, const L
   halve_all(grid, cells, from, to, coverage2, next);
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -30,160 +30,16 @@ struct StripWork {
 #include <hwy/foreach_target.h>  // before highway.h
 #include <hwy/highway.h>
 
+#include "core/voronoi/star_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 constexpr float margin = 1.001f;  // aim a little past the targets, so that points settle
 constexpr float longest_step = 0.2f;
 constexpr float thinnest = 1e-3f;  // twice the area that a triangle must keep
 constexpr float illegal = -1e-5f;  // in-circle test in float: below this it is not rounding
-
-/// For each degree, the place before each place.
-struct BeforeTable {
-  alignas(64) std::int32_t place[17][16];
-
-  constexpr BeforeTable() : place() {
-    for (int degree = 1; degree <= 16; ++degree)
-      for (int k = 0; k < 16; ++k) place[degree][k] = k == 0 ? degree - 1 : k - 1;
-  }
-};
-constexpr BeforeTable before_of_degree;
-
-/// W floats, in as many vectors as that takes.
-template <int W>
-struct Row {
-  using D = hn::CappedTag<float, W>;
-  using V = hn::Vec<D>;
-  static constexpr int lanes = static_cast<int>(hn::MaxLanes(D())), vectors = W / lanes;
-
-  V v[vectors];
-
-  static Row load(const float* from) {
-    Row row;
-    for (int m = 0; m < vectors; ++m) row.v[m] = hn::LoadU(D(), from + m * lanes);
-    return row;
-  }
-  void store(float* to) const {
-    for (int m = 0; m < vectors; ++m) hn::StoreU(v[m], D(), to + m * lanes);
-  }
-  template <class F>
-  static Row of(const F& f) {
-    Row row;
-    for (int m = 0; m < vectors; ++m) row.v[m] = f(m);
-    return row;
-  }
-  /// The same, one place on.
-  Row next() const {
-    if constexpr (vectors == 1) {
-      alignas(64) static constexpr std::int32_t on[16] = {1, 2,  3,  4,  5,  6,  7,  W == 8 ? 0 : 8,
-                                                          9, 10, 11, 12, 13, 14, 15, 0};
-      return {{hn::TableLookupLanes(v[0], hn::SetTableIndices(D(), on))}};
-    } else {
-      alignas(64) float places[W + 1];
-      store(places);
-      places[W] = places[0];
-      return load(places + 1);
-    }
-  }
-  /// One place back; the first one gets the last of `degree` places.
-  Row before(int degree) const {
-    if constexpr (vectors == 1) {
-      return {{hn::TableLookupLanes(v[0], hn::SetTableIndices(D(), before_of_degree.place[degree]))}};
-    } else {
-      alignas(64) float places[W + 1];
-      store(places + 1);
-      places[0] = places[degree];
-      return load(places);
-    }
-  }
-
-  friend Row operator+(Row a, Row b) {
-    return of([&](int m) { return hn::Add(a.v[m], b.v[m]); });
-  }
-  friend Row operator-(Row a, Row b) {
-    return of([&](int m) { return hn::Sub(a.v[m], b.v[m]); });
-  }
-  friend Row operator*(Row a, Row b) {
-    return of([&](int m) { return hn::Mul(a.v[m], b.v[m]); });
-  }
-  friend Row operator/(Row a, Row b) {
-    return of([&](int m) { return hn::Div(a.v[m], b.v[m]); });
-  }
-  static Row all(float value) {
-    return of([&](int) { return hn::Set(D(), value); });
-  }
-  Row root() const {
-    return of([&](int m) { return hn::Sqrt(v[m]); });
-  }
-  /// 0 where a is not below b.
-  Row where_less(Row a, Row b) const {
-    return of([&](int m) { return hn::IfThenElseZero(hn::Lt(a.v[m], b.v[m]), v[m]); });
-  }
-  /// One bit a place where a < b.
-  static std::uint32_t less(Row a, Row b) {
-    std::uint32_t found = 0;
-    for (int m = 0; m < vectors; ++m) {
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(D(), hn::Lt(a.v[m], b.v[m]), bits);
-      found |= (bits[0] | static_cast<std::uint32_t>(bits[1]) << 8) << (m * lanes);
-    }
-    return found;
-  }
-  /// In an order that does not depend on the width of vectors.
-  float sum() const {
-    alignas(64) float places[W];
-    store(places);
-    for (int half = W / 2; half > 0; half /= 2)
-      for (int k = 0; k < half; ++k) places[k] += places[k + half];
-    return places[0];
-  }
-};
-
-/// The star of one point: places past its degree repeat the first neighbor.
-template <int W>
-struct Lanes {
-  Row<W> x, y, d2;          // neighbors: offset and squared distance
-  Row<W> cx, cy, r2, area;  // triangle k, between neighbors k and k + 1
-
-  void load(const StarMesh& mesh, std::size_t i) {
-    const Star& star = mesh.star(i);
-    const FixedPoint here = mesh.at(i);
-    alignas(64) std::int32_t dx[W], dy[W];
-    for (int k = 0; k < W; ++k) {
-      const FixedPoint there = mesh.at(star.neighbor[k < Star::most ? k : 0]);
-      dx[k] = static_cast<std::int32_t>(there.x - here.x);
-      dy[k] = static_cast<std::int32_t>(there.y - here.y);
-    }
-    x = scaled(dx, static_cast<float>(mesh.scale().x));
-    y = scaled(dy, static_cast<float>(mesh.scale().y));
-  }
-
-  void shift_from(const Lanes& other, float dx, float dy) {
-    x = other.x - Row<W>::all(dx);
-    y = other.y - Row<W>::all(dy);
-  }
-
-  void evaluate() {
-    d2 = x * x + y * y;
-    const Row<W> bx = x.next(), by = y.next(), b2 = bx * bx + by * by;
-    area = x * by - y * bx;
-    const Row<W> h = Row<W>::all(0.5f) / area;
-    cx = h * (by * d2 - y * b2);
-    cy = h * (x * b2 - bx * d2);
-    r2 = cx * cx + cy * cy;
-  }
-
- private:
-  static Row<W> scaled(const std::int32_t* steps, float scale) {
-    using D = typename Row<W>::D;
-    const hn::RebindToSigned<D> whole;
-    return Row<W>::of([&](int m) {
-      return hn::Mul(hn::ConvertTo(D(), hn::Load(whole, steps + m * Row<W>::lanes)), hn::Set(D(), scale));
-    });
-  }
-};
 
 template <class Use>
 void for_each_bit(std::uint32_t bits, const Use& use) {
@@ -192,6 +48,8 @@ void for_each_bit(std::uint32_t bits, const Use& use) {
 
 template <int W>
 class Visit {
+  using Floats = Row<float, W>;
+
  public:
   Visit(StarMesh& mesh, std::size_t i, const PushPull& t, Suspects& suspects)
       : mesh_(mesh),
@@ -240,34 +98,34 @@ class Visit {
 
   /// Spoke k is illegal where the neighbor before it lies inside the circle of triangle k.
   void suspect_spokes() {
-    const Row<W> x = now_.x.before(degree_), y = now_.y.before(degree_), d2 = x * x + y * y;
-    const Row<W> outside = d2 - Row<W>::all(2) * (x * now_.cx + y * now_.cy);
-    for_each_bit(Row<W>::less(outside, Row<W>::all(illegal)) & places(),
+    const Floats x = now_.x.before(degree_), y = now_.y.before(degree_), d2 = x * x + y * y;
+    const Floats outside = d2 - Floats::all(2) * (x * now_.cx + y * now_.cy);
+    for_each_bit(Floats::less(outside, Floats::all(illegal)) & places(),
                  [&](int k) { suspects_.add(static_cast<std::uint32_t>(i_), mesh_.star(i_).neighbor[k]); });
   }
 
   std::uint32_t places() const { return (1u << degree_) - 1; }
 
-  void look(const Lanes<W>& lanes) {
-    near_ = Row<W>::less(lanes.d2, Row<W>::all(r_f2_)) & places();
-    far_ = Row<W>::less(Row<W>::all(r_c2_), lanes.r2) & places();
+  void look(const StarLanes<W>& lanes) {
+    near_ = Floats::less(lanes.d2, Floats::all(r_f2_)) & places();
+    far_ = Floats::less(Floats::all(r_c2_), lanes.r2) & places();
   }
 
   Vec2f displacement() const {
-    const Row<W> place = Row<W>::load(place_numbers), degree = Row<W>::all(static_cast<float>(degree_));
-    Row<W> x = Row<W>::all(0), y = x;
+    const Floats place = Floats::load(place_numbers), degree = Floats::all(static_cast<float>(degree_));
+    Floats x = Floats::all(0), y = x;
     if (near_ != 0) {
-      const Row<W> d = now_.d2.root();
-      const Row<W> weight = (Row<W>::all(static_cast<float>(t_.push)) * (d - Row<W>::all(r_f_ * margin)) / d)
-                                .where_less(now_.d2, Row<W>::all(r_f2_))
+      const Floats d = now_.d2.root();
+      const Floats weight = (Floats::all(static_cast<float>(t_.push)) * (d - Floats::all(r_f_ * margin)) / d)
+                                .where_less(now_.d2, Floats::all(r_f2_))
                                 .where_less(place, degree);
       x = weight * now_.x;
       y = weight * now_.y;
     }
     if (far_ != 0) {
-      const Row<W> r = now_.r2.root();
-      const Row<W> weight = (Row<W>::all(static_cast<float>(t_.pull)) * (r - Row<W>::all(r_c_ / margin)) / r)
-                                .where_less(Row<W>::all(r_c2_), now_.r2)
+      const Floats r = now_.r2.root();
+      const Floats weight = (Floats::all(static_cast<float>(t_.pull)) * (r - Floats::all(r_c_ / margin)) / r)
+                                .where_less(Floats::all(r_c2_), now_.r2)
                                 .where_less(place, degree);
       x = x + (weight * now_.cx).where_less(place, degree);
       y = y + (weight * now_.cy).where_less(place, degree);
@@ -285,7 +143,7 @@ class Visit {
     for (int halvings = 0;; ++halvings) {
       next_.shift_from(now_, move.x, move.y);
       next_.evaluate();
-      if ((Row<W>::less(next_.area, Row<W>::all(thinnest)) & places()) == 0) return true;
+      if ((Floats::less(next_.area, Floats::all(thinnest)) & places()) == 0) return true;
       if (halvings == most_halvings) return false;
       move = {move.x * 0.5f, move.y * 0.5f};
     }
@@ -310,7 +168,7 @@ class Visit {
   const float r_f_, r_c_, r_f2_, r_c2_;
   int degree_ = 0;
   std::uint32_t near_ = 0, far_ = 0;
-  Lanes<W> now_, next_;
+  StarLanes<W> now_, next_;
 };
 
 /// Hardly any point of an even set has more than 8 neighbors; none has more than 15.
@@ -347,6 +205,7 @@ void finish_sweep(StarMesh& mesh, const PushPull& targets, StripWork& work) {
   for (const std::uint32_t i : work.put_off) work.counts.moves += visit(mesh, i, targets, work.suspects);
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

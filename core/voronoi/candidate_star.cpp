@@ -1,8 +1,5 @@
 #include "core/voronoi/candidate_star.h"
 
-// Under sanitizers AVX-512 gave other last bits than all other units; until it is known why, it is left out.
-#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
-
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -12,6 +9,8 @@
 #define HWY_TARGET_INCLUDE "core/voronoi/candidate_star.cpp"
 #include <hwy/foreach_target.h>  // before highway.h
 #include <hwy/highway.h>
+
+#include "core/vector_row-inl.h"
 
 #ifndef WELLSPACED_CANDIDATE_STAR
 #define WELLSPACED_CANDIDATE_STAR
@@ -27,71 +26,12 @@ constexpr double needle2 = 1e-6;    ///< the least square of a sine whose triang
 
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// W doubles, in as many vectors as that takes.
-template <int W>
-struct Row {
-  using D = hn::CappedTag<double, 8>;
-  using V = hn::Vec<D>;
-  static constexpr int lanes = static_cast<int>(hn::MaxLanes(D())), vectors = W / lanes;
-
-  V v[vectors];
-
-  template <class F>
-  static Row of(const F& f) {
-    Row row;
-    for (int m = 0; m < vectors; ++m) row.v[m] = f(m);
-    return row;
-  }
-  static Row load(const double* from) {
-    return of([&](int m) { return hn::LoadU(D(), from + m * lanes); });
-  }
-  static Row all(double value) {
-    const V same = hn::Set(D(), value);
-    return of([&](int) { return same; });
-  }
-  void store(double* to) const {
-    for (int m = 0; m < vectors; ++m) hn::Store(v[m], D(), to + m * lanes);
-  }
-
-  friend Row operator+(Row a, Row b) {
-    return of([&](int m) { return hn::Add(a.v[m], b.v[m]); });
-  }
-  friend Row operator-(Row a, Row b) {
-    return of([&](int m) { return hn::Sub(a.v[m], b.v[m]); });
-  }
-  friend Row operator*(Row a, Row b) {
-    return of([&](int m) { return hn::Mul(a.v[m], b.v[m]); });
-  }
-  friend Row operator/(Row a, Row b) {
-    return of([&](int m) { return hn::Div(a.v[m], b.v[m]); });
-  }
-  friend Row larger(Row a, Row b) {
-    return of([&](int m) { return hn::Max(a.v[m], b.v[m]); });
-  }
-  HWY_ATTR friend bool all_less(Row a, Row b) {
-    auto less = hn::Lt(a.v[0], b.v[0]);
-    for (int m = 1; m < vectors; ++m) less = hn::And(less, hn::Lt(a.v[m], b.v[m]));
-    return hn::AllTrue(D(), less);
-  }
-  double largest() const {
-    V all = v[0];
-    for (int m = 1; m < vectors; ++m) all = hn::Max(all, v[m]);
-    return hn::GetLane(hn::MaxOfLanes(D(), all));
-  }
-  double smallest() const {
-    V all = v[0];
-    for (int m = 1; m < vectors; ++m) all = hn::Min(all, v[m]);
-    return hn::GetLane(hn::MinOfLanes(D(), all));
-  }
-};
+namespace {
 
 /// The corners of the cell of the candidate at u, and whether its star is Delaunay.
 template <int W>
 StarState look(CandidateStar::Table& t, Vec2 u, CandidateStar::Squares& squares) {
-  using R = Row<W>;
+  using R = Row<double, W>;
   const R ux = R::all(u.x), uy = R::all(u.y);
   const R ax = R::load(t.spoke_x) - ux, ay = R::load(t.spoke_y) - uy, a2 = ax * ax + ay * ay;
   const R bx = R::load(t.spoke_x + 1) - ux, by = R::load(t.spoke_y + 1) - uy, b2 = bx * bx + by * by;
@@ -201,6 +141,7 @@ bool wrap_here(CandidateStar::Table& t, Vec2 u) {
   return false;
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace wellspaced::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -277,6 +278,7 @@ bool mutual_block(const Star* stars, std::size_t begin, std::size_t end) {
   return true;
 }
 
+}  // namespace
 }  // namespace wellspaced::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

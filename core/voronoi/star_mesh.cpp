@@ -356,31 +356,6 @@ std::size_t StarMesh::take_marked(std::size_t from, std::size_t end) {
 
 // ---- results
 
-MeshRadii StarMesh::measure(const Control& control) const {
-  constexpr std::size_t block = 16384;
-  std::vector<MeshRadii> parts((size() + block - 1) / block);
-  parallel_blocks(size(), block, control, [&](std::size_t begin, std::size_t end) {
-    double shortest2 = std::numeric_limits<double>::infinity(), outermost2 = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Star& star = stars_[i];
-      Vec2 a = offset(i, star.neighbor[star.degree - 1]);
-      for (int k = 0; k < star.degree; ++k) {
-        const Vec2 b = offset(i, star.neighbor[k]);
-        shortest2 = std::min(shortest2, norm2(b));
-        // Each triangle once a corner: the circumradius is |a| |b| |a - b| / (2 cross(a, b)).
-        const double area2 = cross(a, b);
-        outermost2 = std::max(outermost2, norm2(a) * norm2(b) * norm2(a - b) / (4 * area2 * area2));
-        a = b;
-      }
-    }
-    parts[begin / block] = {std::sqrt(shortest2), std::sqrt(outermost2)};
-  });
-  MeshRadii radii = parts[0];
-  for (const MeshRadii& part : parts)
-    radii = {std::min(radii.shortest, part.shortest), std::max(radii.outermost, part.outermost)};
-  return radii;
-}
-
 PointSet StarMesh::points(const PointSet& input) const {
   PointSet out = input;
   for (std::size_t i = 0; i < size(); ++i) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,7 +81,7 @@ class StarMesh {
   double spacing() const { return spacing_; }  ///< d_hex in domain lengths
   std::uint32_t original(std::size_t i) const { return original_[i]; }
   const Star& star(std::size_t i) const { return stars_[i]; }
-  FixedPoint at(std::size_t i) const { return at_[i]; }
+  const FixedPoint& at(std::size_t i) const { return at_[i]; }
   const std::vector<FixedPoint>& places() const { return at_; }
 
   /// Units of d_hex a fixed-point step, along each axis.
@@ -87,7 +89,10 @@ class StarMesh {
   /// From point i to point j, the short way, in units of d_hex.
   Vec2 offset(std::size_t i, std::size_t j) const;
 
-  void move_to(std::size_t i, FixedPoint to) { at_[i] = to; }
+  void move_to(std::size_t i, FixedPoint to) {
+    const auto both = std::bit_cast<std::uint64_t>(to);
+    std::memcpy(&at_[i].x, &both, sizeof both);
+  }
   /// Where point i comes to stand if it moves by `by` (in units of d_hex).
   FixedPoint moved(std::size_t i, Vec2 by) const {
     const auto whole = [](double steps) {

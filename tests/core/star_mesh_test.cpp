@@ -8,9 +8,11 @@
 
 #include "core/analyze/spacing.h"
 #include "core/generate/lattice.h"
+#include "core/optimize/opt_beta.h"
 #include "tests/support/mesh.h"
 #include "tests/support/optimizing.h"
 #include "tests/support/oracle.h"
+#include "tests/support/vector_widths.h"
 
 namespace wellspaced {
 namespace {
@@ -58,6 +60,36 @@ TEST(StarMesh, MeasuresWhatTheAnalysisMeasures) {
   const MeshRadii radii = mesh.measure(control);
   EXPECT_NEAR(radii.shortest * mesh.spacing(), spacing.r_f, 1e-8);
   EXPECT_NEAR(radii.outermost * mesh.spacing(), spacing.r_c, 1e-8);
+}
+
+/// Every edge and every triangle, in double.
+MeshRadii measured_one_by_one(const StarMesh& mesh) {
+  double shortest2 = 1e300, outermost2 = 0;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const Star& star = mesh.star(i);
+    for (int k = 0; k < star.degree; ++k) {
+      const Vec2 a = mesh.offset(i, star.neighbor[k]), b = mesh.offset(i, star.neighbor[star.after(k)]);
+      const double area2 = cross(a, b);
+      shortest2 = std::min(shortest2, norm2(a));
+      outermost2 = std::max(outermost2, norm2(a) * norm2(b) * norm2(a - b) / (4 * area2 * area2));
+    }
+  }
+  return {std::sqrt(shortest2), std::sqrt(outermost2)};
+}
+
+TEST(StarMesh, MeasuresEveryStarOnAnyVectorWidth) {
+  Control control;
+  const PointSet lattice = triangular_lattice(std::make_shared<Torus>(), 1000, control);
+  const PointSet even = opt_beta(mps(40000, 4), {0.75, {}, {}}, control).points;
+  for (const PointSet& input : {random_points(1, 1, 2000, 1), mps(30000, 2), lattice, even}) {
+    const StarMesh mesh(input, control);
+    const MeshRadii expected = measured_one_by_one(mesh);
+    testing::on_every_vector_width([&](const std::string& name) {
+      const MeshRadii radii = mesh.measure(control);
+      EXPECT_EQ(radii.shortest, expected.shortest) << name;
+      EXPECT_EQ(radii.outermost, expected.outermost) << name;
+    });
+  }
 }
 
 TEST(StarMesh, CutsStripsThatHoldEveryPlaceOnce) {
