@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/sort.h"
@@ -15,9 +16,12 @@
 namespace wellspaced {
 namespace {
 
-void require_in_domain(const PointSet& points) {
+void require_in_domain(const PointSet& points, const Control& control) {
+  constexpr std::size_t between_checks = 1 << 16;
   const int dim = std::min(points.domain->dimension(), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i % between_checks == 0) control.check();
     const Vec3 p = points[i];
     const double c[3] = {p.x, p.y, p.z};
     for (int axis = 0; axis < dim; ++axis)
@@ -65,16 +69,19 @@ std::optional<Repetition> first_repetition(const PointSet& points, const Control
 /// grid. Nothing is known of sets with crowded cells.
 std::optional<bool> repeats_within_cells(const PointSet& points, const Control& control) {
   constexpr std::uint32_t crowd = 32;
+  constexpr std::size_t between_checks = 1 << 16;
   const GridOrder order =
       grid_order(points, hexagonal_spacing(points.domain->area(), points.size()), control);
   if (order.fullest() > crowd) return std::nullopt;
   const auto same = [&](std::uint32_t a, std::uint32_t b) {
     return without_negligible({order.x[a], order.y[a], 0}) == without_negligible({order.x[b], order.y[b], 0});
   };
-  for (std::size_t c = 0; c + 1 < order.start.size(); ++c)
+  for (std::size_t c = 0; c + 1 < order.start.size(); ++c) {
+    if (c % between_checks == 0) control.check();
     for (std::uint32_t a = order.start[c]; a < order.start[c + 1]; ++a)
       for (std::uint32_t b = order.start[c]; b < a; ++b)
         if (same(a, b)) return true;
+  }
   return false;
 }
 
@@ -85,6 +92,18 @@ std::optional<Repetition> find_repetition(const PointSet& points, const Control&
 
 }  // namespace
 
+PointSet points_to_set(std::shared_ptr<const Domain> domain, std::size_t n, const Control& control) {
+  constexpr std::size_t step = 1 << 20;  // of numbers to be cleared
+  const std::size_t numbers = n * static_cast<std::size_t>(domain->dimension());
+  PointSet points{std::move(domain), {}};
+  points.coordinates.reserve(numbers);
+  while (points.coordinates.size() < numbers) {
+    control.check();
+    points.coordinates.resize(std::min(numbers, points.coordinates.size() + step));
+  }
+  return points;
+}
+
 double hexagonal_spacing(double area, std::size_t n) {
   return std::sqrt(2 * area / (std::sqrt(3.0) * static_cast<double>(n)));
 }
@@ -93,7 +112,7 @@ void require_usable(const PointSet& points, const Control& control) {
   if (points.size() < 3)
     throw Error(ErrorCode::degenerate_input,
                 "at least 3 points are needed; the point set has " + std::to_string(points.size()));
-  require_in_domain(points);
+  require_in_domain(points, control);
   if (const auto repeat = find_repetition(points, control))
     throw Error(ErrorCode::degenerate_input,
                 "the point repeats point " + std::to_string(repeat->earlier) +

@@ -39,6 +39,9 @@ struct PointSet {
   }
 };
 
+/// n points that are all still to be set. Errors: cancelled, deadline_exceeded.
+PointSet points_to_set(std::shared_ptr<const Domain> domain, std::size_t n, const Control& control);
+
 /// Spacing of the triangular lattice with n points on that area: sqrt(2 area / (sqrt(3) n)); n > 0.
 double hexagonal_spacing(double area, std::size_t n);
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/large_vector.h"
 #include "core/parallel.h"
 #include "core/sort.h"
 
@@ -102,7 +103,7 @@ class CoverageProof {
 
   const PointSet& points_;
   const Periods periods_;
-  std::vector<double> bounds_;
+  LargeVector<double> bounds_;
 };
 
 /// Looks at all pairs of points that may be at most `reach` apart: rows at least that high, each sorted along
@@ -134,16 +135,21 @@ class PairSweep {
  private:
   void sort_into_rows() {
     const auto n = static_cast<std::uint32_t>(points_.size());
-    std::vector<std::uint32_t> row(n);
+    constexpr std::uint32_t between_checks = 1 << 16;
+    LargeVector<std::uint32_t> row(n);
     start_.assign(rows_ + 1, 0);
     for (std::uint32_t i = 0; i < n; ++i) {
+      if (i % between_checks == 0) control_.check();
       row[i] = std::min(rows_ - 1, static_cast<std::uint32_t>(points_[i].y * (rows_ / periods_.size().y)));
       ++start_[row[i] + 1];
     }
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
     sorted_.resize(n);
-    for (std::uint32_t i = 0; i < n; ++i) sorted_[next[row[i]]++] = {points_[i].x, points_[i].y};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (i % between_checks == 0) control_.check();
+      sorted_[next[row[i]]++] = {points_[i].x, points_[i].y};
+    }
     parallel_blocks(rows_, 256, control_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r)
         sort(sorted_.begin() + start_[r], sorted_.begin() + start_[r + 1], control_,
@@ -188,14 +194,14 @@ class PairSweep {
   const Control& control_;
   std::uint32_t rows_ = 1;
   std::vector<std::uint32_t> start_;
-  std::vector<Vec2> sorted_;
+  LargeVector<Vec2> sorted_;
 };
 
 }  // namespace
 
 std::optional<Certificate> certify(const PointSet& points, const Control& control, const StarSource& source) {
   CoverageProof coverage(points);
-  std::vector<double> nearest(points.size(), infinity);  // only says how far it is worth to look for pairs
+  LargeVector<double> nearest(points.size(), infinity);  // only says how far it is worth to look for pairs
   source(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
     coverage.add(i, spokes);
     for (const Spoke& spoke : spokes)

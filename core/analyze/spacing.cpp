@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <span>
 
 #include "core/analyze/spacing_star.h"
 #include "core/error.h"
+#include "core/large_vector.h"
 #include "core/math.h"
 #include "core/voronoi/stars.h"
 
@@ -17,6 +17,7 @@ namespace wellspaced {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t between_checks = 1 << 16;
 
 double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 / pi); }
 
@@ -91,10 +92,10 @@ class Summary {
   std::map<int, std::size_t> many_;
 };
 
-/// In the points' order. Many megabytes: not cleared first.
-std::unique_ptr<StarMeasure[]> measure_stars(const PointSet& points, const Control& control) {
+/// In the points' order.
+LargeVector<StarMeasure> measure_stars(const PointSet& points, const Control& control) {
   require_usable(points, control);
-  auto stars = std::make_unique_for_overwrite<StarMeasure[]>(points.size());
+  LargeVector<StarMeasure> stars(points.size());
   visit_stars(points, control,
               [&](std::size_t i, std::span<const Spoke> spokes) { stars[i] = measure_star(i, spokes); });
   return stars;
@@ -105,7 +106,10 @@ std::unique_ptr<StarMeasure[]> measure_stars(const PointSet& points, const Contr
 Spacing measure_spacing(const PointSet& points, const Control& control) {
   const auto stars = measure_stars(points, control);
   Summary summary(points);
-  for (std::size_t i = 0; i < points.size(); ++i) summary.add(stars[i]);
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    if (i % between_checks == 0) control.check();
+    summary.add(stars[i]);
+  }
   return summary.result();
 }
 
@@ -126,7 +130,10 @@ LocalSpacing measure_local_spacing(const PointSet& points, const Control& contro
   Summary summary(points);
   LocalSpacing result;
   result.beta_i.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) result.beta_i.push_back(summary.add(stars[i]));
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    if (i % between_checks == 0) control.check();
+    result.beta_i.push_back(summary.add(stars[i]));
+  }
   result.global = summary.result();
   return result;
 }

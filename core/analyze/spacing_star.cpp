@@ -75,7 +75,7 @@ StarMeasure measure_star_here(std::size_t i, std::span<const Spoke> spokes) {
       nearest2 = hn::Min(nearest2, hn::Add(a2, hn::Load(d, row.own + k)));
       edge2 = hn::Max(edge2, a2);
       const auto area = hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
-      const auto scale = hn::Div(hn::Set(d, 0.5), area);
+      const auto inverse = hn::Div(hn::Set(d, 1), area), scale = hn::Mul(hn::Set(d, 0.5), inverse);
       const auto x = hn::Mul(scale, hn::Sub(hn::Mul(by, a2), hn::Mul(ay, b2)));
       const auto y = hn::Mul(scale, hn::Sub(hn::Mul(ax, b2), hn::Mul(bx, a2)));
       hn::Store(x, d, corner_x + k);
@@ -87,8 +87,8 @@ StarMeasure measure_star_here(std::size_t i, std::span<const Spoke> spokes) {
       const auto center = hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by));
       const auto at_a = hn::Neg(hn::Add(hn::Mul(ax, ex), hn::Mul(ay, ey)));
       const auto at_b = hn::Add(hn::Mul(bx, ex), hn::Mul(by, ey));
-      most = hn::Max(most, hn::Div(hn::Max(center, hn::Max(at_a, at_b)), area));
-      least = hn::Min(least, hn::Div(hn::Min(center, hn::Min(at_a, at_b)), area));
+      most = hn::Max(most, hn::Mul(hn::Max(center, hn::Max(at_a, at_b)), inverse));
+      least = hn::Min(least, hn::Mul(hn::Min(center, hn::Min(at_a, at_b)), inverse));
     }
     twice_area.add(corner_x, corner_y, std::min(SpokeRow::places, spokes.size() - first));
   }

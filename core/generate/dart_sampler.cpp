@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "core/parallel.h"
@@ -27,7 +28,7 @@ int passes_of(int round) { return round == 0 ? 4 : round < 3 ? 2 : 1; }
 }  // namespace
 
 DartSampler::DartSampler(const Torus& torus, const DiskRadii& radii, Rng& rng, Control& control)
-    : grid_(torus, radii),
+    : grid_(torus, radii, control),
       radii_(radii),
       tiles_x_(grid_.x.cells, in_one_tile(grid_, radii)),
       tiles_y_(grid_.y.cells, in_one_tile(grid_, radii)),
@@ -49,10 +50,23 @@ void DartSampler::run() {
 }
 
 PointSet DartSampler::samples(const std::shared_ptr<const Torus>& torus) const {
-  PointSet points{torus, {}};
-  for (std::int64_t j = 0; j < grid_.y.cells; ++j)
-    for (std::int64_t i = 0; i < grid_.x.cells; ++i)
-      if (grid_.taken(i, j)) points.push_back({grid_.sample(i, j).x, grid_.sample(i, j).y, 0});
+  const auto rows = static_cast<std::size_t>(grid_.y.cells);
+  std::vector<std::size_t> first(rows + 1, 0);  // sample of each row, and the end
+  const auto for_each_row = [&](const auto& work) {
+    parallel_blocks(rows, 1, control_, [&](std::size_t row, std::size_t) {
+      for (std::int64_t i = 0; i < grid_.x.cells; ++i)
+        if (grid_.taken(i, static_cast<std::int64_t>(row))) work(row, i);
+    });
+  };
+  for_each_row([&](std::size_t row, std::int64_t) { ++first[row + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  PointSet points = points_to_set(torus, first.back(), control_);
+  for_each_row([&](std::size_t row, std::int64_t i) {
+    const Vec2 p = grid_.sample(i, static_cast<std::int64_t>(row));
+    const std::size_t at = 2 * first[row]++;
+    points.coordinates[at] = p.x;
+    points.coordinates[at + 1] = p.y;
+  });
   return points;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/generate/row_order.h"
+#include "core/parallel.h"
 
 namespace wellspaced {
 
@@ -16,12 +17,16 @@ GridAxis::GridAxis(double length, const DiskRadii& radii)
   stride = cells + 2 * reach;
 }
 
-SampleGrid::SampleGrid(const Torus& torus, const DiskRadii& radii)
+SampleGrid::SampleGrid(const Torus& torus, const DiskRadii& radii, const Control& control)
     : x(torus.width(), radii),
       y(torus.height(), radii),
-      table_x_(static_cast<std::size_t>(x.stride * y.stride) + CellWindow::readable_beyond,
-               std::numeric_limits<double>::quiet_NaN()),
-      table_y_(table_x_) {
+      table_x_(static_cast<std::size_t>(x.stride * y.stride) + CellWindow::readable_beyond),
+      table_y_(table_x_.size()) {
+  constexpr std::size_t block = 1 << 16;
+  parallel_blocks(table_x_.size(), block, control, [&](std::size_t begin, std::size_t end) {
+    for (LargeVector<double>* table : {&table_x_, &table_y_})
+      std::fill(table->data() + begin, table->data() + end, std::numeric_limits<double>::quiet_NaN());
+  });
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(x.period, y.period);
   conflict2_ = (radii.conflict + rounding) * (radii.conflict + rounding);
   coverage2_ = (radii.coverage + rounding) * (radii.coverage + rounding);

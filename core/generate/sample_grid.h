@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
+#include "core/control.h"
 #include "core/domain/torus.h"
+#include "core/large_vector.h"
 #include "core/vec.h"
 
 namespace wellspaced {
@@ -41,7 +42,8 @@ struct GridAxis {
 /// the same time.
 class SampleGrid {
  public:
-  SampleGrid(const Torus& torus, const DiskRadii& radii);
+  /// Errors: cancelled, deadline_exceeded.
+  SampleGrid(const Torus& torus, const DiskRadii& radii, const Control& control);
 
   const GridAxis x, y;
 
@@ -83,7 +85,7 @@ class SampleGrid {
     table_y_[at] = p.y;
   }
 
-  std::vector<double> table_x_, table_y_;
+  LargeVector<double> table_x_, table_y_;
   double conflict2_, coverage2_;
 };
 

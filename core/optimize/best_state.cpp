@@ -23,7 +23,7 @@ void BestState::record(int sweep, double fraction, MeshRadii radii) {
 }
 
 MeshRadii BestState::measure_apart() const {
-  const GlobalRatio ratio = measure_ratio(mesh_.points(input_), control_);
+  const GlobalRatio ratio = measure_ratio(mesh_.points(input_, control_), control_);
   return {ratio.r_f / mesh_.spacing(), ratio.r_c / mesh_.spacing()};
 }
 
@@ -51,7 +51,7 @@ OptimizeResult BestState::result() {
   OptimizeResult result{input_, {}, history_.back().sweep, std::move(history_)};
   if (best_sweep_ == 0) return result;
   for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
-  PointSet best = mesh_.points(input_);
+  PointSet best = mesh_.points(input_, control_);
   const double after = measure_ratio(best, control_).beta();
   // The first record is the input's to within the mesh's rounding: only a close call needs the input itself.
   const bool better = after < 0.999 * result.history.front().beta;

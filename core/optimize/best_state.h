@@ -38,7 +38,7 @@ class BestState {
   StarMesh& mesh_;
   Control& control_;
   bool narrow_;  // so few points across that the mesh may lack edges that reach around the torus
-  std::vector<FixedPoint> best_;
+  LargeVector<FixedPoint> best_;
   int best_sweep_ = 0;
   double best_beta_ = std::numeric_limits<double>::infinity();
   std::vector<SweepRecord> history_;

@@ -27,7 +27,7 @@ bool triangulate(StarMesh& mesh, const PointSet& input, const Control& control) 
 }  // namespace
 
 double move_all(StarMesh& mesh, std::span<const Vec2> moves, const PointSet& input, const Control& control) {
-  std::vector<FixedPoint> from(mesh.size());
+  LargeVector<FixedPoint> from(mesh.size());
   for (std::size_t i = 0; i < from.size(); ++i) from[i] = mesh.at(i);
   for (double part = 1; part >= 1.0 / 64; part /= 2) {
     for (std::size_t i = 0; i < from.size(); ++i) mesh.move_to(i, mesh.moved(i, part * moves[i]));

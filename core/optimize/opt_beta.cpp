@@ -194,7 +194,7 @@ class Descent {
 
   OptimizeResult result() {
     for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
-    OptimizeResult result{mesh_.points(input_), false, sweeps_, std::move(history_),
+    OptimizeResult result{mesh_.points(input_, control_), false, sweeps_, std::move(history_),
                           visits_ / static_cast<double>(mesh_.size())};
     // What the mesh says of its places is right for the points to within this, but for points in a line.
     constexpr double rounding = 1e-6;
@@ -216,7 +216,7 @@ class Descent {
   const OptBetaOptions& options_;
   Control& control_;
   StarMesh mesh_;
-  std::vector<FixedPoint> best_;  // stars are not needed to tell the points
+  LargeVector<FixedPoint> best_;  // stars are not needed to tell the points
   double best_beta_ = std::numeric_limits<double>::infinity();
   double visits_ = 0, flips_ = 0, budget_ = 0;
   int sweeps_ = 0;

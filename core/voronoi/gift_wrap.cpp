@@ -288,11 +288,11 @@ namespace wellspaced {
 HWY_EXPORT(wrap_block);
 HWY_EXPORT(mutual_block);
 
-std::optional<std::vector<Star>> wrap_stars(const GridOrder& order, const Control& control) {
+std::optional<LargeVector<Star>> wrap_stars(const GridOrder& order, const Control& control) {
   constexpr std::size_t block = 8192;
   constexpr std::uint32_t overfull = 64;
   if (order.fullest() > overfull) return std::nullopt;
-  std::vector<Star> stars(order.size());
+  LargeVector<Star> stars(order.size());
   std::atomic<bool> suits = true;
   const auto on_every_block = [&](const auto& work) {
     parallel_blocks(order.size(), block, control, [&](std::size_t begin, std::size_t end) {

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "core/control.h"
+#include "core/large_vector.h"
 #include "core/voronoi/grid_order.h"
 #include "core/voronoi/star.h"
 
@@ -22,7 +22,7 @@ namespace wellspaced {
 /// Requires: `order` with cells of about 1.6 d_hex; no two points the same.
 /// Errors: cancelled, deadline_exceeded. Cost: O(n), about 0.15 us a point. Determinism: the same stars on
 /// any number of threads and any vector width.
-std::optional<std::vector<Star>> wrap_stars(const GridOrder& order, const Control& control);
+std::optional<LargeVector<Star>> wrap_stars(const GridOrder& order, const Control& control);
 
 /// The cell side that suits it, in units of d_hex.
 constexpr double wrap_cell = 1.62;

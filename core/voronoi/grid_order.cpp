@@ -35,25 +35,25 @@ GridOrder grid_order(const PointSet& points, double side, const Control& control
   order.columns = cells_along(order.width, side);
   order.rows = cells_along(order.height, side);
   order.start.assign(std::size_t{order.columns} * order.rows + 1, 0);
-  std::vector<std::uint32_t> cell(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  const std::size_t n = points.size();
+  const double* at = points.coordinates.data();
+  LargeVector<std::uint32_t> cell(n);
+  for (std::size_t i = 0; i < n; ++i) {
     if (i % between_checks == 0) control.check();
-    const Vec3 p = points[i];
-    cell[i] = order.row_of(p.y) * order.columns + order.column_of(p.x);
+    cell[i] = order.row_of(at[2 * i + 1]) * order.columns + order.column_of(at[2 * i]);
     ++order.start[cell[i] + 1];
   }
   std::partial_sum(order.start.begin(), order.start.end(), order.start.begin());
-  std::vector<std::uint32_t> next(order.start.begin(), order.start.end() - 1);
-  order.original.resize(points.size());
-  order.x.resize(points.size());
-  order.y.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  LargeVector<std::uint32_t> next(order.start.begin(), order.start.end() - 1);
+  order.original.resize(n);
+  order.x.resize(n);
+  order.y.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     if (i % between_checks == 0) control.check();
     const std::uint32_t place = next[cell[i]]++;
-    const Vec3 p = points[i];
     order.original[place] = static_cast<std::uint32_t>(i);
-    order.x[place] = p.x;
-    order.y[place] = p.y;
+    order.x[place] = at[2 * i];
+    order.y[place] = at[2 * i + 1];
   }
   return order;
 }

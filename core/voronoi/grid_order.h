@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/control.h"
+#include "core/large_vector.h"
 #include "core/point_set.h"
 
 namespace wellspaced {
@@ -13,9 +13,9 @@ namespace wellspaced {
 struct GridOrder {
   double width = 0, height = 0;
   std::uint32_t columns = 1, rows = 1;
-  std::vector<std::uint32_t> start;  ///< of each cell in what follows, and the end: columns * rows + 1 places
-  std::vector<std::uint32_t> original;  ///< index in the point set of each place
-  std::vector<double> x, y;             ///< coordinates of each place
+  LargeVector<std::uint32_t> start;  ///< of each cell in what follows, and the end: columns * rows + 1 places
+  LargeVector<std::uint32_t> original;  ///< index in the point set of each place
+  LargeVector<double> x, y;             ///< coordinates of each place
 
   std::size_t size() const { return x.size(); }
   std::uint32_t column_of(double at) const { return cell_of(at, width, columns); }

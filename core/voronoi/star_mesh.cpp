@@ -29,6 +29,15 @@ double to_length(std::uint32_t x, double period) {
   return length < period ? length : 0.0;
 }
 
+/// Every index on its own, on all threads.
+template <class Work>
+void for_each(std::size_t n, const Control& control, const Work& work) {
+  constexpr std::size_t block = 1 << 16;
+  parallel_blocks(n, block, control, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ErrorCode::degenerate_input,
               why +
@@ -61,9 +70,11 @@ Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
 constexpr double nudges[] = {0, 1e-7, 1e-6, 1e-5};
 
 void StarMesh::build_stars(const PointSet& input, const Control& control) {
-  std::vector<FixedPoint> exact(input.size());
-  for (std::size_t i = 0; i < input.size(); ++i)
-    exact[i] = {to_fixed(input[i].x, width_), to_fixed(input[i].y, height_)};
+  LargeVector<FixedPoint> exact(input.size());
+  const double* coordinates = input.coordinates.data();
+  for_each(exact.size(), control, [&](std::size_t i) {
+    exact[i] = {to_fixed(coordinates[2 * i], width_), to_fixed(coordinates[2 * i + 1], height_)};
+  });
   for (const double nudge : nudges) {
     const bool mutual = place_in_grid_order(nudge > 0 ? shaken(exact, nudge) : exact, input.domain, control);
     if (mutual) return;
@@ -72,18 +83,18 @@ void StarMesh::build_stars(const PointSet& input, const Control& control) {
 }
 
 /// Sets places and stars. Whether those are mutual.
-bool StarMesh::place_in_grid_order(const std::vector<FixedPoint>& points,
+bool StarMesh::place_in_grid_order(const LargeVector<FixedPoint>& points,
                                    const std::shared_ptr<const Domain>& domain, const Control& control) {
-  GridOrder order = grid_order(to_points(points, domain), wrap_cell * spacing_, control);
+  GridOrder order = grid_order(to_points(points, domain, control), wrap_cell * spacing_, control);
   original_ = std::move(order.original);
   at_.resize(points.size());
-  for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = points[original_[k]];
+  for_each(at_.size(), control, [&](std::size_t k) { at_[k] = points[original_[k]]; });
   cut_strips(order);
   if (auto wrapped = wrap_stars(order, control)) {
     stars_ = std::move(*wrapped);
     return true;
   }
-  collect_stars(to_points(at_, domain), control);
+  collect_stars(to_points(at_, domain, control), control);
   return is_mutual();
 }
 
@@ -104,7 +115,7 @@ void StarMesh::rebuild(const PointSet& input, const Control& control) {
 
 /// Sets the stars of places that have left their grid order.
 void StarMesh::triangulate_places(const std::shared_ptr<const Domain>& domain, const Control& control) {
-  const PointSet points = to_points(at_, domain);
+  const PointSet points = to_points(at_, domain, control);
   const GridOrder order = grid_order(points, wrap_cell * spacing_, control);
   const auto wrapped = wrap_stars(order, control);
   if (!wrapped) return collect_stars(points, control);
@@ -115,11 +126,13 @@ void StarMesh::triangulate_places(const std::shared_ptr<const Domain>& domain, c
   }
 }
 
-PointSet StarMesh::to_points(const std::vector<FixedPoint>& places,
-                             const std::shared_ptr<const Domain>& domain) const {
-  PointSet points{domain, {}};
-  points.coordinates.reserve(2 * places.size());
-  for (const FixedPoint& p : places) points.push_back({to_length(p.x, width_), to_length(p.y, height_), 0});
+PointSet StarMesh::to_points(const LargeVector<FixedPoint>& places,
+                             const std::shared_ptr<const Domain>& domain, const Control& control) const {
+  PointSet points = points_to_set(domain, places.size(), control);
+  for_each(places.size(), control, [&](std::size_t i) {
+    points.coordinates[2 * i] = to_length(places[i].x, width_);
+    points.coordinates[2 * i + 1] = to_length(places[i].y, height_);
+  });
   return points;
 }
 
@@ -163,7 +176,7 @@ void StarMesh::cut_strips(const GridOrder& order) {
   }
 }
 
-std::vector<FixedPoint> StarMesh::shaken(std::vector<FixedPoint> points, double amount) const {
+LargeVector<FixedPoint> StarMesh::shaken(LargeVector<FixedPoint> points, double amount) const {
   Rng rng(0x5ba5e);
   const auto step = [&](double scale) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((2 * rng.uniform() - 1) * amount / scale));
@@ -356,13 +369,13 @@ std::size_t StarMesh::take_marked(std::size_t from, std::size_t end) {
 
 // ---- results
 
-PointSet StarMesh::points(const PointSet& input) const {
+PointSet StarMesh::points(const PointSet& input, const Control& control) const {
   PointSet out = input;
-  for (std::size_t i = 0; i < size(); ++i) {
+  for_each(size(), control, [&](std::size_t i) {
     const Vec3 from = input[original_[i]];
-    if (at_[i] == FixedPoint{to_fixed(from.x, width_), to_fixed(from.y, height_)}) continue;
+    if (at_[i] == FixedPoint{to_fixed(from.x, width_), to_fixed(from.y, height_)}) return;
     out.set(original_[i], {to_length(at_[i].x, width_), to_length(at_[i].y, height_), 0});
-  }
+  });
   return out;
 }
 

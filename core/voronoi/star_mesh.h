@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/control.h"
+#include "core/large_vector.h"
 #include "core/point_set.h"
 #include "core/voronoi/grid_order.h"
 #include "core/voronoi/star.h"
@@ -82,7 +83,7 @@ class StarMesh {
   std::uint32_t original(std::size_t i) const { return original_[i]; }
   const Star& star(std::size_t i) const { return stars_[i]; }
   const FixedPoint& at(std::size_t i) const { return at_[i]; }
-  const std::vector<FixedPoint>& places() const { return at_; }
+  const LargeVector<FixedPoint>& places() const { return at_; }
 
   /// Units of d_hex a fixed-point step, along each axis.
   Vec2 scale() const { return scale_; }
@@ -143,26 +144,27 @@ class StarMesh {
 
   /// The points in their original order and numbers; those that stand where they stood get their input
   /// coordinates back, bit for bit.
-  PointSet points(const PointSet& input) const;
+  /// Errors: cancelled, deadline_exceeded.
+  PointSet points(const PointSet& input, const Control& control) const;
 
   /// Places and stars, to come back to.
   struct Snapshot {
-    std::vector<FixedPoint> at;
-    std::vector<Star> stars;
+    LargeVector<FixedPoint> at;
+    LargeVector<Star> stars;
   };
   Snapshot snapshot() const { return {at_, stars_}; }
   void restore(const Snapshot& snapshot);
 
  private:
   void build_stars(const PointSet& input, const Control& control);
-  bool place_in_grid_order(const std::vector<FixedPoint>& points, const std::shared_ptr<const Domain>& domain,
+  bool place_in_grid_order(const LargeVector<FixedPoint>& points, const std::shared_ptr<const Domain>& domain,
                            const Control& control);
-  std::vector<FixedPoint> shaken(std::vector<FixedPoint> points, double amount) const;
+  LargeVector<FixedPoint> shaken(LargeVector<FixedPoint> points, double amount) const;
   void collect_stars(const PointSet& points, const Control& control);
   bool is_mutual() const;
   void triangulate_places(const std::shared_ptr<const Domain>& domain, const Control& control);
-  PointSet to_points(const std::vector<FixedPoint>& places,
-                     const std::shared_ptr<const Domain>& domain) const;
+  PointSet to_points(const LargeVector<FixedPoint>& places, const std::shared_ptr<const Domain>& domain,
+                     const Control& control) const;
   void cut_strips(const GridOrder& order);
   void legalize_strip(const Strip& strip, Suspects& suspects, const Control& control);
   bool try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects);
@@ -174,9 +176,9 @@ class StarMesh {
 
   double spacing_ = 0, width_ = 0, height_ = 0;
   Vec2 scale_, steps_;
-  std::vector<FixedPoint> at_;
-  std::vector<std::uint32_t> original_;
-  std::vector<Star> stars_;
+  LargeVector<FixedPoint> at_;
+  LargeVector<std::uint32_t> original_;
+  LargeVector<Star> stars_;
   std::vector<std::uint64_t> marks_;
   std::vector<Strip> strips_;
 };

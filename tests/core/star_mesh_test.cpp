@@ -157,7 +157,7 @@ TEST(StarMesh, ReturnsUnmovedPointsBitForBit) {
   const PointSet input = mps(200, 7);
   StarMesh mesh(input, Control());
   mesh.move_to(11, {mesh.at(11).x + 1000, mesh.at(11).y});
-  const PointSet out = mesh.points(input);
+  const PointSet out = mesh.points(input, Control());
   for (std::size_t i = 0; i < input.size(); ++i) EXPECT_EQ(out[i] == input[i], i != mesh.original(11)) << i;
   EXPECT_NEAR(out[mesh.original(11)].x - input[mesh.original(11)].x, 1000 * 0x1p-32, 1e-9);
 }
