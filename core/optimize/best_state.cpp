@@ -48,7 +48,8 @@ void BestState::keep(int sweep, double beta) {
 }
 
 OptimizeResult BestState::result() {
-  OptimizeResult result{input_, {}, history_.back().sweep, std::move(history_)};
+  const int sweeps = history_.back().sweep;
+  OptimizeResult result{input_, {}, sweeps, std::move(history_), static_cast<double>(sweeps)};
   if (best_sweep_ == 0) return result;
   for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
   PointSet best = mesh_.points(input_, control_);

@@ -244,6 +244,7 @@ OptimizeResult one_after_the_other(OptimizeResult first, OptimizeResult second) 
   first.history.insert(first.history.end(), second.history.begin() + 1, second.history.end());
   second.history = std::move(first.history);
   second.sweeps += first.sweeps;
+  second.visits += first.visits;
   return second;
 }
 

@@ -124,6 +124,7 @@ OptimizeResult opt_beta_local(const PointSet& input, const OptBetaLocalOptions& 
         {static_cast<double>(result.sweeps) / options.max_sweeps, now.sweep, now.beta, now.r_c, now.r_f});
   }
   result.converged = best_beta <= options.beta;
+  result.visits = result.sweeps;
   return result;
 }
 

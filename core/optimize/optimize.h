@@ -24,7 +24,7 @@ struct OptimizeResult {
   std::optional<bool> converged;
   int sweeps = 0;                    ///< done in all; the best state may be an earlier one
   std::vector<SweepRecord> history;  ///< in the order of sweeps, from 0 on
-  double visits = 0;                 ///< of stars, a point; 0 where the method counts sweeps only
+  double visits = 0;  ///< how often a point was evaluated, on the mean: once a sweep where sweeps visit all
 };
 
 }  // namespace wellspaced

@@ -107,7 +107,9 @@ class Relaxation {
   OptimizeResult run() {
     const std::optional<PushPullOptions> easier = within_reach();
     if ((!easier || relax(*easier)) && relax(options_)) best_.prefer_last();
-    return best_.result();
+    OptimizeResult result = best_.result();
+    result.visits = static_cast<double>(visits_) / static_cast<double>(mesh_.size());
+    return result;
   }
 
  private:
@@ -133,6 +135,7 @@ class Relaxation {
       const SweepCounts count = aims.area_sd ? sweep_with_areas(targets, area_target(aims))
                                              : push_pull_sweep(mesh_, targets, control_);
       ++sweeps_;
+      visits_ += count.visits;
       const bool clean = !mesh_.any_marked() && is_clean(aims);
       if (clean || std::has_single_bit(static_cast<unsigned>(sweeps_)) || sweeps_ % 64 == 0 ||
           sweeps_ == options_.max_sweeps)
@@ -183,6 +186,7 @@ class Relaxation {
   StarMesh mesh_;
   BestState best_;
   int sweeps_ = 0;
+  std::size_t visits_ = 0;
 };
 
 }  // namespace

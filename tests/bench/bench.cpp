@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -48,6 +49,10 @@ struct Row {
 
 constexpr std::uint64_t ten_thousand = 10'000, hundred_thousand = 100'000, million = 1'000'000,
                         ten_million = 10'000'000;
+
+double seconds_since(Control::Clock::time_point begin) {
+  return std::chrono::duration<double>(Control::Clock::now() - begin).count();
+}
 
 std::string words(std::uint64_t count) {
   return count >= million ? std::to_string(count / million) + "M" : std::to_string(count / 1000) + "k";
@@ -97,13 +102,73 @@ Row speedup(std::uint64_t count, double beta) {
       Control control(threads);
       const auto begin = Control::Clock::now();
       benchmark::DoNotOptimize(opt_beta(mps(count), {beta, OptBetaOptions::Randomness::fast, {}}, control));
-      return std::chrono::duration<double>(Control::Clock::now() - begin).count();
+      return seconds_since(begin);
     };
     const double one = seconds(1);
     state.counters["speedup"] = one / seconds(2);
   };
   return {"opt-beta/" + words(count) + "/2 threads over one",     count, {0, "s", 1}, work, 1, 1,
           CounterBar{"speedup", CounterBar::Sense::at_least, 1.7}};
+}
+
+/// Time a point over that of 10,000 points.
+Row per_point(std::uint64_t count, double beta) {
+  const auto work = [=](State& state, Control& control) {
+    const auto seconds_a_point = [&](std::uint64_t n) {
+      const PointSet& input = mps(n);
+      const auto begin = Control::Clock::now();
+      benchmark::DoNotOptimize(opt_beta(input, {beta, OptBetaOptions::Randomness::fast, {}}, control));
+      return seconds_since(begin) / static_cast<double>(n);
+    };
+    std::vector<double> small(9);
+    for (double& s : small) s = seconds_a_point(ten_thousand);
+    std::nth_element(small.begin(), small.begin() + 4, small.end());
+    state.counters["over 10k"] = seconds_a_point(count) / small[4];
+  };
+  return {"opt-beta/" + words(count) + "/a point, over 10k",      count, {0, "s", 1}, work, 1, 1,
+          CounterBar{"over 10k", CounterBar::Sense::at_most, 1.5}};
+}
+
+/// How long cancel takes, at so many moments of all that a user may ask for.
+Row cancelling(std::uint64_t count) {
+  constexpr int moments = 12;
+  const auto everything = [=](const Control& parent) {
+    Control control(2, &parent);
+    Rng rng(1);
+    const PointSet input =
+        poisson_disk(std::make_shared<Torus>(), {poisson_disk_radius(1, count)}, rng, control);
+    const PointSet points = opt_beta(input, {.85, OptBetaOptions::Randomness::fast, {}}, control).points;
+    benchmark::DoNotOptimize(certify(points, control));
+    benchmark::DoNotOptimize(measure_local_spacing(points, control));
+  };
+  const auto work = [=](State& state, Control&) {
+    const auto begin = Control::Clock::now();
+    everything(Control());
+    const double whole = seconds_since(begin);
+    double longest = 0;
+    for (int k = 0; k < moments; ++k) {
+      Control control;
+      auto over = std::async(std::launch::async, [&] {
+        try {
+          everything(control);
+        } catch (const Error&) {
+        }
+        return Control::Clock::now();
+      });
+      over.wait_for(std::chrono::duration<double>(whole * (k + .5) / moments));
+      const auto cancelled = Control::Clock::now();
+      control.cancel();
+      longest = std::max(longest, std::chrono::duration<double>(over.get() - cancelled).count());
+    }
+    state.counters["longest wait s"] = longest;
+  };
+  return {"cancel/" + words(count),
+          0,
+          {0, "s", 1},
+          work,
+          1,
+          1,
+          CounterBar{"longest wait s", CounterBar::Sense::at_most, .1}};
 }
 
 Row sampling(std::uint64_t count, double bar, unsigned threads = 1) {
@@ -164,6 +229,7 @@ Row pushing() {
   const auto work = [](State& state, Control& control) {
     const OptimizeResult result = push_pull(mps(ten_thousand), {.87, .65, {}, 1000}, control);
     state.counters["beta"] = measure_spacing(result.points, control).beta;
+    state.counters["visits a point"] = result.visits;
   };
   return {"push-pull/10k/rho .87, coverage .65", ten_thousand, {0.11, "s", 1}, work};
 }
@@ -267,7 +333,9 @@ std::vector<Row> more_rows() {
           cgal(million)};
 }
 
-std::vector<Row> long_rows() { return {lowest(), optimizing(ten_million, .75, 0)}; }
+std::vector<Row> long_rows() {
+  return {lowest(), optimizing(ten_million, .75, 0), per_point(ten_million, .75), cancelling(ten_million)};
+}
 
 void add(const Row& row) {
   const auto run = [row](State& state) {
