@@ -63,8 +63,9 @@ class Descent {
 
  private:
   struct Allowance {
-    double visits, flips;  // in all, over all points
-    bool escalate;         // raise the weights when nothing moves forward
+    double visits, flips;                                     // in all, over all points
+    bool escalate;                                            // raise the weights when nothing moves forward
+    int look_across_after = std::numeric_limits<int>::max();  // sweeps; before, it costs more than it brings
   };
 
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -78,9 +79,8 @@ class Descent {
     if (options_.beta < surely_reached) {
       const StarMesh::Snapshot start = mesh_.snapshot();
       const double boldly = std::max(options_.beta, often_reached);
-      PushPull targets = opt_beta_targets(boldly, options_.randomness);
-      targets.look_across = true;
-      const bool clean = relax(targets, {visits_a_point * n, flips_a_point * n, false});
+      const bool clean = relax(opt_beta_targets(boldly, options_.randomness),
+                               {visits_a_point * n, flips_a_point * n, false, 100});
       record();
       if (clean) return boldly;
       mesh_.restore(start);
@@ -119,6 +119,7 @@ class Descent {
     Calm calm;
     mesh_.mark_all();
     for (int sweep = 1;; ++sweep) {
+      targets.look_across = sweep > allowance.look_across_after;
       const SweepCounts count = push_pull_sweep(mesh_, targets, control_);
       visits_ += static_cast<double>(count.visits);
       flips_ += static_cast<double>(count.flips);
@@ -152,10 +153,9 @@ class Descent {
     for (int failures = 0; beta > options_.beta && visits_ < budget_;) {
       const double next = std::max(options_.beta, beta - step);
       const auto [push, pull] = weights[choice];
-      PushPull targets = opt_beta_targets(next, push, pull);
-      targets.look_across = true;
+      const PushPull targets = opt_beta_targets(next, push, pull);
       const double visits = std::max(700 * n, 430 * n + .12 * visits_);
-      if (relax(targets, {visits, flips_a_point * n, false})) {
+      if (relax(targets, {visits, flips_a_point * n, false, 0})) {
         beta = next;
         clean = mesh_.snapshot();
         record();
