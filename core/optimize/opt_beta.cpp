@@ -14,6 +14,7 @@
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/opt_beta_targets.h"
 #include "core/optimize/push_pull_sweep.h"
+#include "core/optimize/ripening.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -141,35 +142,50 @@ class Descent {
     }
   }
 
-  /// Below what can be reached at once: small steps, each from the last state that was clean.
+  /// Below what can be reached at once: small steps, each from the last state that was clean, or from what
+  /// has ripened out of it.
   void lower(double beta) {
     constexpr std::array<std::pair<double, double>, 7> weights = {
         {{1.3, 1.7}, {1.2, 1.6}, {1.3, 1.5}, {1.15, 1.4}, {1.4, 1.5}, {1.2, 1.9}, {1.05, 1.3}}};
-    constexpr double largest_step = .004, smallest_step = 2e-4, flips_a_point = 20;
+    constexpr double largest_step = .004, smallest_step = 5e-4, flips_a_point = 20;
     const auto n = static_cast<double>(mesh_.size());
-    StarMesh::Snapshot clean = mesh_.snapshot();
+    StarMesh::Snapshot start = mesh_.snapshot();
+    Ripening ripening;
     double step = largest_step;
     std::size_t choice = 0;
     for (int failures = 0; beta > options_.beta && visits_ < budget_;) {
       const double next = std::max(options_.beta, beta - step);
       const auto [push, pull] = weights[choice];
       const PushPull targets = opt_beta_targets(next, push, pull);
-      const double visits = std::max(700 * n, 430 * n + .12 * visits_);
-      if (relax(targets, {visits, flips_a_point * n, false, 0})) {
+      if (relax(targets, {ripening.patience() * n, flips_a_point * n, false, 0})) {
         beta = next;
-        clean = mesh_.snapshot();
+        start = mesh_.snapshot();
         record();
         failures = 0;
+        ripening.restart();
         step = std::min(largest_step, step * 1.4);
         continue;
       }
       choice = (choice + 1) % weights.size();
-      if (++failures >= 2) {
-        step = std::max(smallest_step, step / 2);
-        failures = 0;
-      }
-      mesh_.restore(clean);
+      mesh_.restore(start);
+      if (++failures < 2) continue;
+      step = std::max(smallest_step, step * .9);
+      ripen(ripening.next());
+      start = mesh_.snapshot();
     }
+  }
+
+  void ripen(const Ripening::Portion& portion) {
+    const double enough = std::min(budget_, visits_ + portion.visits * static_cast<double>(mesh_.size()));
+    mesh_.mark_all();
+    while (mesh_.any_marked() && visits_ < enough) {
+      const SweepCounts count = push_pull_sweep(mesh_, portion.targets, control_);
+      visits_ += static_cast<double>(count.visits);
+      flips_ += static_cast<double>(count.flips);
+      ++sweeps_;
+      report(history_.back());
+    }
+    flips_ += static_cast<double>(mesh_.legalize_all(control_));
   }
 
   /// Measures the state, and keeps it if it is the best so far. Between sweeps a few edges are not Delaunay,

@@ -82,7 +82,7 @@ Row optimizing(std::uint64_t count, double beta, double bar, unsigned threads = 
 Row lowest() {
   const auto work = [](State& state, Control& control) {
     const OptimizeResult result =
-        opt_beta(mps(ten_thousand), {.65, OptBetaOptions::Randomness::gentle, 27000}, control);
+        opt_beta(mps(ten_thousand), {.65, OptBetaOptions::Randomness::gentle, 23000}, control);
     state.PauseTiming();
     state.counters["beta_upper"] = certify(result.points, control).value().beta_upper;
     state.ResumeTiming();
@@ -320,7 +320,8 @@ std::vector<Row> short_rows() {
 }
 
 std::vector<Row> more_rows() {
-  return {optimizing(hundred_thousand, .747, .2),
+  return {optimizing(ten_thousand, .667, 30),
+          optimizing(hundred_thousand, .747, .2),
           sampling(million, .7),
           sampling(million, .4, 2),
           optimizing(million, .75, 2.2),

@@ -94,6 +94,15 @@ TEST(OptBeta, DescendsBelowTheFieldsFloor) {
   EXPECT_LE(measure_spacing(result.points, control).beta, 0.68);
 }
 
+TEST(OptBeta, RipensWhatIsStuckOnTheWayDown) {
+  Control control;
+  for (const std::size_t n : {30u, 100u, 1000u}) {
+    const OptimizeResult result = opt_beta(mps(n, 3), to(0.667), control);
+    EXPECT_EQ(result.converged, true) << n;
+    EXPECT_LE(measure_spacing(result.points, control).beta, 0.667) << n;
+  }
+}
+
 TEST(OptBeta, KeepsTheBestStateWhenItsVisitsRunOut) {
   const PointSet input = mps(500, 2);
   Control control;
