@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 
 #include "core/error.h"
 #include "proto/execute.h"
@@ -12,7 +13,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr int failed = 1, no_file = 2;
+constexpr int failed = 1, no_file = 2, wrong_command = 2;
 
 bool ends_with(const std::string& path, std::string_view ending) { return path.ends_with(ending); }
 
@@ -23,11 +24,25 @@ std::string content_type_of(const Invocation& i) {
   return std::string(media_type_of(Format::json));
 }
 
-Format output_format(const Invocation& i) {
+/// The one asked for, else by the output's ending, else the default; nothing if there is no such format.
+std::optional<Format> output_format(const Invocation& i) {
   std::string name = i.format;
   if (name.empty() && i.output_path != "-") name = std::filesystem::path(i.output_path).extension().string();
   if (name.starts_with('.')) name.erase(0, 1);
-  return negotiate(name, "", formats_of(i.operation));
+  const auto formats = formats_of(i.operation);
+  if (name.empty()) return formats.front();
+  for (const Format format : formats)
+    if (name_of(format) == name) return format;
+  return std::nullopt;
+}
+
+std::string no_such_format(const Invocation& i) {
+  std::string list;
+  for (const Format format : formats_of(i.operation))
+    list += (list.empty() ? "" : ", ") + std::string(name_of(format));
+  return (i.format.empty() ? "-o: the ending of '" + i.output_path + "' is none of " + list +
+                                 "; give the file one of these endings, or say --format"
+                           : "--format: '" + i.format + "' is none of " + list);
 }
 
 std::vector<std::pair<std::string, std::string>> read_query(const Invocation& i) {
@@ -62,9 +77,8 @@ bool write_file(const std::string& path, const std::string& bytes) {
   return static_cast<bool>(file);
 }
 
-std::string encoded_result(const Invocation& i, const std::string& body) {
+std::string encoded_result(const Invocation& i, Format format, const std::string& body) {
   const auto query = read_query(i);
-  const Format format = output_format(i);
   if (!i.picture.empty()) require_picture(i.picture, "--picture");
   const std::string content_type = content_type_of(i);
   const JobPoints no_jobs = [](const std::string&) -> PointSet {
@@ -79,6 +93,11 @@ std::string encoded_result(const Invocation& i, const std::string& body) {
 }  // namespace
 
 int run_command(const Invocation& i) {
+  const std::optional<Format> format = output_format(i);
+  if (!format) {
+    std::cerr << "wellspaced: " << no_such_format(i) << "\n";
+    return wrong_command;
+  }
   std::string body;
   if (!read_file(i.request_path, body)) {
     std::cerr << "wellspaced: can't read " << i.request_path << "\n";
@@ -86,7 +105,7 @@ int run_command(const Invocation& i) {
   }
   std::string bytes;
   try {
-    bytes = encoded_result(i, body);
+    bytes = encoded_result(i, *format, body);
   } catch (const Error& error) {
     std::cerr << to_json(to_problem(error), "") << "\n";
     return failed;

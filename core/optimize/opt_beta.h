@@ -34,8 +34,8 @@ int allowed_visits(const OptBetaOptions& options);
 /// Below .70 beta is lowered step by step, each from the state that the last one reached; a step that fails
 /// is undone and tried again with other weights. If that fails too, as it does near .67, the set ripens
 /// (core/optimize/ripening.h) until the step succeeds: it loses points with other than six neighbors, and
-/// with them randomness. At 10,000 points .667 takes 3 s and leaves 17 to 19 % of them (.67: 20 %, .69: 31 %)
-/// and oscillations of 4.8; at .66 there are 5 % and the set is nearly a crystal.
+/// with them randomness. At 10,000 points .667 takes 3 s and leaves 16 to 19 % of them (.67: 20 %, .69: 31 %)
+/// and oscillations of 4.8; at .66 there are 2 to 7 % and the set is nearly a crystal.
 ///
 /// Sets that a StarMesh can't hold are optimized by opt_beta_local instead: for good if they have fewer than
 /// 20 points or their torus is thinner than 4 d_hex, else for a few sweeps that even them out.

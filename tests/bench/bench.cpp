@@ -58,6 +58,11 @@ std::string words(std::uint64_t count) {
   return count >= million ? std::to_string(count / million) + "M" : std::to_string(count / 1000) + "k";
 }
 
+double not_six_valent(const PointSet& points, const Control& control) {
+  Spacing spacing = measure_spacing(points, control);
+  return 100 - 100 * static_cast<double>(spacing.valence[6]) / static_cast<double>(spacing.n);
+}
+
 Row optimizing(std::uint64_t count, double beta, double bar, unsigned threads = 1,
                OptBetaOptions::Randomness randomness = OptBetaOptions::Randomness::fast) {
   const bool gentle = randomness == OptBetaOptions::Randomness::gentle;
@@ -70,6 +75,7 @@ Row optimizing(std::uint64_t count, double beta, double bar, unsigned threads = 
     const OptimizeResult result = opt_beta(mps(count), {beta, randomness, {}}, control);
     state.PauseTiming();
     state.counters["beta_upper"] = certify(result.points, control).value().beta_upper;
+    state.counters["not 6-valent %"] = not_six_valent(result.points, control);
     state.counters["sweeps"] = result.sweeps;
     state.counters["visits a point"] = result.visits;
     if (result.converged != true) state.SkipWithError("the target was not reached");
@@ -321,6 +327,7 @@ std::vector<Row> short_rows() {
 
 std::vector<Row> more_rows() {
   return {optimizing(ten_thousand, .667, 30),
+          optimizing(ten_thousand, .66, 0),
           optimizing(hundred_thousand, .747, .2),
           sampling(million, .7),
           sampling(million, .4, 2),

@@ -281,8 +281,11 @@ TEST_F(ServiceProcess, RunTellsWhatIsWrongAndLeavesNoOutput) {
   Process nowhere({"run", "generate", request, "-o", directory / "no/out.json"});
   EXPECT_EQ(nowhere.wait(), 2);
   Process strange({"run", "generate", request, "-o", directory / "out.pdf"});
-  EXPECT_EQ(strange.wait(), 1);
-  EXPECT_THAT(strange.err(), HasSubstr("svg"));
+  EXPECT_EQ(strange.wait(), 2);
+  EXPECT_THAT(strange.err(), HasSubstr("out.pdf' is none of json, npy, csv, svg"));
+  Process unknown({"run", "generate", request, "-o", output, "--format", "pdf"});
+  EXPECT_EQ(unknown.wait(), 2);
+  EXPECT_THAT(unknown.err(), HasSubstr("--format: 'pdf'"));
   Process unnamed({"run", "generate", request, "-o", directory / "out"});
   EXPECT_EQ(unnamed.wait(), 0) << "no ending means the default format" << unnamed.err();
   Process chained({"run", "analyze", file("chained.json", R"({"points":{"job":"x"}})"), "-o", output});
