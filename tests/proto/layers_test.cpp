@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,19 @@ TEST(Layers, KeepTheCoreQuiet) {
                                "std::mt19937", "using namespace std"})
         EXPECT_EQ(line.find(word), std::string::npos) << file << ": " << line;
   }
+}
+
+/// Two functions of one name in two such files would be one to the linker, whichever it takes.
+TEST(Layers, KeepWhatIsCompiledOnceAWidthInItsFile) {
+  int files = 0;
+  for (const std::string& file : sources()) {
+    std::ifstream stream(root / file);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (!file.ends_with(".cpp") || text.find("<hwy/foreach_target.h>") == std::string::npos) continue;
+    ++files;
+    EXPECT_NE(text.find("namespace wellspaced::HWY_NAMESPACE {\nnamespace {\n"), std::string::npos) << file;
+  }
+  EXPECT_GT(files, 4);
 }
 
 }  // namespace
