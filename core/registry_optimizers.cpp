@@ -153,9 +153,10 @@ const std::vector<Optimizer> optimizer_rows = {
     {{"opt-beta",
       "Opt-beta",
       "Pushes and pulls the points that violate absolute radii, on a triangulation that is kept while they "
-      "move, until the global beta is at most the target; sets of fewer than 20 points, or on a torus "
-      "thinner "
-      "than four times their mean spacing, go the way of opt-beta-local.",
+      "move, until the global beta is at most the target. Targets of 0.69 and more are reached in a fraction "
+      "of a second for 10,000 points, 0.667 in seconds; below, sets become nearly crystals. Sets of fewer "
+      "than 20 points, or on a torus thinner than four times their mean spacing, go the way of "
+      "opt-beta-local.",
       "Radii as in Ahmed et al., A Simple Push-Pull Algorithm for Blue-Noise Sampling, 2017; the rest is "
       "this project's",
       {beta("0.75"),
