@@ -163,12 +163,12 @@ const std::vector<Optimizer> optimizer_rows = {
        randomness(),
        {"max_visits", Parameter::Type::integer,
         "Visits a point (a sweep visits marked points only) after which the best state is returned", "", 1,
-        1000000, false, false, "250 for a beta of at least 0.7, else 20000"}}},
+        1000000, false, false, "250 for a beta of at least 0.7 (at least 100,000 in all), else 20000"}}},
      [](const PointSet& points, const Arguments& a, Control& control) {
        return opt_beta(points, opt_beta_options(a), control);
      },
      [](const Arguments& a) {
-       return Cost{0.12e-6 * allowed_visits(opt_beta_options(a)) + 12e-6, 400};
+       return Cost{0.1e-6 * expected_visits(opt_beta_options(a)) + 5e-6, 400};
      }},
     {{"opt-beta-local",
       "Opt-beta^i",
@@ -197,7 +197,10 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        const PushPullOptions options = push_pull_options(a);
-       return Cost{(options.area_sd ? 1.2e-6 : 0.25e-6) * options.max_sweeps + 12e-6, 250};
+       constexpr int usual_sweeps = 300;  // later ones visit few points
+       return Cost{options.area_sd ? 1.2e-6 * options.max_sweeps + 12e-6
+                                   : 0.1e-6 * std::min(options.max_sweeps, usual_sweeps) + 5e-6,
+                   250};
      }},
     {{"cvt",
       "Centroidal Voronoi tessellation",

@@ -43,7 +43,9 @@ struct SpacingField {
 
 constexpr SpacingField spacing_fields[] = {
     {"beta", &Spacing::beta, "global ratio r_c / r_f"},
-    {"r_f", &Spacing::r_f, "conflict radius: smallest distance between two points"},
+    {"r_f", &Spacing::r_f,
+     "conflict radius: smallest distance between two points; a point's own images around the torus don't "
+     "count"},
     {"r_c", &Spacing::r_c, "coverage radius: largest distance of a domain point to its nearest sample"},
     {"beta_i_max", &Spacing::beta_i_max, "largest local ratio r_c^i / r_f^i; at most beta"},
     {"beta_i_mean", &Spacing::beta_i_mean, "mean local ratio"},

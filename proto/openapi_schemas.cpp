@@ -197,7 +197,8 @@ ordered_json enrich_schema() {
        "First fill the holes of a set with beta above 1: points are inserted in the middle of the deepest "
        "ones "
        "until the coverage radius is that of maximal Poisson-disk sampling with as many points as were "
-       "brought, sqrt(0.6966 area / n). They come after the others, of which output i is input i moved."}};
+       "brought, sqrt(0.6966 area / n), or r_f where that is larger. They come after the others, of which "
+       "output i is input i moved."}};
 }
 
 ordered_json schema_reference(const std::string& name) { return {{"$ref", "#/components/schemas/" + name}}; }

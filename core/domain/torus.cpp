@@ -35,7 +35,7 @@ Torus::Torus(double width, double height) : width_(width), height_(height) {
   if (std::max(width, height) > max_aspect * std::min(width, height))
     throw Error(ErrorCode::invalid_parameters,
                 "the longer side is more than 1000 times the shorter one; use a less elongated torus",
-                width < height ? "/width" : "/height");
+                width < height ? "/height" : "/width");
 }
 
 double Torus::distance(Vec3 p, Vec3 q) const {

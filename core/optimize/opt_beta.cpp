@@ -11,10 +11,12 @@
 #include "core/analyze/spacing.h"
 #include "core/error.h"
 #include "core/optimize/calm.h"
+#include "core/optimize/move_all.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/opt_beta_targets.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/optimize/ripening.h"
+#include "core/rng.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -50,7 +52,7 @@ class Descent {
       : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.places()) {
     constexpr double cheap = 1e5;  // visits in all that nobody notices
     budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
-    if (is_gentle() && !options.max_visits) budget_ = std::max(budget_, cheap);
+    if (!options.max_visits) budget_ = std::max(budget_, cheap);
     record();
   }
 
@@ -71,8 +73,6 @@ class Descent {
 
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-  bool is_gentle() const { return options_.randomness == OptBetaOptions::Randomness::gentle; }
-
   /// As far as can be got without steps. Returns the target that was reached, or 0 if the budget is used up.
   double leap() {
     constexpr double flips_a_point = 20, visits_a_point = 200;
@@ -87,16 +87,15 @@ class Descent {
       mesh_.restore(start);
     }
     const double first = std::max(options_.beta, surely_reached);
-    const bool clean = is_gentle()
-                           ? reach_gently(first)
-                           : relax(opt_beta_targets(first, options_.randomness), {budget_, no_limit, true});
+    const bool clean = reach(first);
     record();
     return clean ? first : 0;
   }
 
-  /// Near gentle's radii a set may freeze, above all one of few points. It is then moved on by targets that
-  /// are easier to come to from there, however much randomness they cost.
-  bool reach_gently(double beta) {
+  /// A set may freeze, above all one of few points near gentle's radii, or a lattice, whose pushes and pulls
+  /// cancel. It is then shaken, and moved on by targets that are easier to come to from there, however much
+  /// randomness they cost.
+  bool reach(double beta) {
     struct Rescue {
       double beta, push, pull;
     };
@@ -106,11 +105,20 @@ class Descent {
     if (relax(opt_beta_targets(beta, options_.randomness), {.5 * most, no_limit, true})) return true;
     for (std::size_t k = 0; visits_ < budget_; ++k) {
       record();
+      shake();
       const Rescue& rescue = rescues[k % rescues.size()];
       const PushPull targets = opt_beta_targets(std::min(beta, rescue.beta), rescue.push, rescue.pull);
       if (relax(targets, {.08 * most, no_limit, true})) return true;
     }
     return false;
+  }
+
+  void shake() {
+    constexpr double farthest = .03;
+    std::vector<Vec2> moves(mesh_.size());
+    for (Vec2& move : moves)
+      move = {farthest * (2 * rng_.uniform() - 1), farthest * (2 * rng_.uniform() - 1)};
+    move_all(mesh_, moves, input_, control_);
   }
 
   /// Sweeps over marked points until nothing violates the targets. False: the allowance is used up.
@@ -236,6 +244,7 @@ class Descent {
   double best_beta_ = std::numeric_limits<double>::infinity();
   double visits_ = 0, flips_ = 0, budget_ = 0;
   int sweeps_ = 0;
+  Rng rng_{0x5ba4e};
   std::vector<SweepRecord> history_;
 };
 
@@ -270,18 +279,36 @@ int allowed_visits(const OptBetaOptions& options) {
   return options.max_visits.value_or(options.beta < surely_reached ? visits_to_all : visits_to_sure_targets);
 }
 
+int expected_visits(const OptBetaOptions& options) {
+  struct Row {
+    double beta;
+    int visits;
+  };
+  constexpr std::array<Row, 5> rows = {{{.70, 100}, {.69, 120}, {.68, 800}, {.67, 4000}, {.66, 15000}}};
+  for (const Row& row : rows)
+    if (options.beta >= row.beta) return std::min(row.visits, allowed_visits(options));
+  return allowed_visits(options);
+}
+
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control) {
-  constexpr int sweeps_to_even_out = 3, most_sweeps_without_mesh = 60;
+  constexpr int sweeps_to_even_out = 3;
+  const int most_sweeps = allowed_visits(options);
   require_options(options);
   require_usable(input, control);
   if (StarMesh::why_too_small(*input.domain, input.size()))
-    return by_local_ratios(input, options, most_sweeps_without_mesh, control);
+    return by_local_ratios(input, options, most_sweeps, control);
   if (auto mesh = try_mesh(input, control)) return Descent(std::move(*mesh), input, options, control).run();
   OptimizeResult evened = by_local_ratios(input, options, sweeps_to_even_out, control);
-  auto mesh = evened.converged == true ? std::nullopt : try_mesh(evened.points, control);
-  if (!mesh) return evened;
-  OptimizeResult result = Descent(std::move(*mesh), evened.points, options, control).run();
-  return one_after_the_other(std::move(evened), std::move(result));
+  while (evened.converged != true && evened.sweeps < most_sweeps) {
+    if (auto mesh = try_mesh(evened.points, control)) {
+      OptimizeResult result = Descent(std::move(*mesh), evened.points, options, control).run();
+      return one_after_the_other(std::move(evened), std::move(result));
+    }
+    const int more = std::min(evened.sweeps, most_sweeps - evened.sweeps);  // from the best state again
+    OptimizeResult further = by_local_ratios(evened.points, options, more, control);
+    evened = one_after_the_other(std::move(evened), std::move(further));
+  }
+  return evened;
 }
 
 }  // namespace wellspaced

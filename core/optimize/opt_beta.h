@@ -13,11 +13,13 @@ struct OptBetaOptions {
   double beta = 0.75;                          ///< target for the global ratio, in [1/sqrt(3), 1)
   Randomness randomness = Randomness::gentle;  ///< fast: about half the time, and less random
   std::optional<int> max_visits;  ///< visits a point after which the best state is returned; default: 250 for
-                                  ///< a beta of .70 or more (gentle: at least 100,000 in all), else 20,000
+                                  ///< a beta of .70 or more (at least 100,000 in all), else 20,000
 };
 
 /// What max_visits is when it is not given.
 int allowed_visits(const OptBetaOptions& options);
+/// How many are to be expected of 10,000 points from maximal Poisson-disk sampling, rather too many.
+int expected_visits(const OptBetaOptions& options);
 
 /// opt-beta, this project's own: the global ratio by absolute radii. Target radii R_f and R_c = beta R_f
 /// follow from beta; points that violate one are pushed and pulled until none does, on a Delaunay
@@ -37,8 +39,11 @@ int allowed_visits(const OptBetaOptions& options);
 /// with them randomness. At 10,000 points .667 takes 3 s and leaves 16 to 19 % of them (.67: 20 %, .69: 31 %)
 /// and oscillations of 4.8; at .66 there are 2 to 7 % and the set is nearly a crystal.
 ///
+/// What freezes on the way to .70, such as a lattice, is shaken by .03 d_hex and moved on by other targets.
+///
 /// Sets that a StarMesh can't hold are optimized by opt_beta_local instead: for good if they have fewer than
-/// 20 points or their torus is thinner than 4 d_hex, else for a few sweeps that even them out.
+/// 20 points or their torus is thinner than 4 d_hex, else until they are even enough; a sweep of it counts as
+/// a visit a point.
 ///
 /// Guarantees: those of OptimizeResult; points that violate nothing on the way are returned bit for bit.
 /// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage, a sweep visiting only points that are

@@ -51,10 +51,10 @@ std::vector<std::uint32_t> scan_line_order(const PointSet& points, double spacin
 void require_local(const NeighborGrid& grid) {
   constexpr std::size_t most = 512;
   if (grid.fullest_cell() <= most) return;
-  throw Error(
-      ErrorCode::degenerate_input,
-      "the points are so clustered that " + std::to_string(grid.fullest_cell()) +
-          " of them lie within one mean spacing; optimize a point set that is spread over its domain");
+  throw Error(ErrorCode::degenerate_input, "the points are so clustered that " +
+                                               std::to_string(grid.fullest_cell()) +
+                                               " of them lie within one mean spacing; remove repetitions, or "
+                                               "give these points a domain that they are spread over");
 }
 
 SweepRecord record(int sweep, const PointSet& points, const Control& control) {

@@ -137,20 +137,43 @@ class Visit {
     return {sum.x * shrink, sum.y * shrink};
   }
 
-  /// Halves the step until all triangles keep some area; leaves what they then are in next_.
+  /// Halves the step until all triangles keep some area, or get some where they had less; leaves what they
+  /// then are in next_.
   bool shorten(Vec2f& move) {
     constexpr int most_halvings = 4;
     for (int halvings = 0;; ++halvings) {
       next_.shift_from(now_, move.x, move.y);
       next_.evaluate();
-      if ((Floats::less(next_.area, Floats::all(thinnest)) & places()) == 0) return true;
+      const std::uint32_t thin = Floats::less(next_.area, Floats::all(thinnest)) & places();
+      if (thin == 0 || (now_is_thin() && grow(thin, move))) return true;
       if (halvings == most_halvings) return false;
       move = {move.x * 0.5f, move.y * 0.5f};
     }
   }
 
+  bool now_is_thin() const { return (Floats::less(now_.area, Floats::all(thinnest)) & places()) != 0; }
+
+  /// Whether these triangles will have more area than they have now. In double: they may be very small.
+  bool grow(std::uint32_t thin, Vec2f move) const {
+    const FixedPoint here = mesh_.at(i_), there = place_after(move);
+    const Star& star = mesh_.star(i_);
+    bool all = true;
+    for_each_bit(thin, [&](int k) {
+      const auto area_from = [&](FixedPoint from) {
+        return cross(mesh_.way(from, mesh_.at(star.neighbor[k])),
+                     mesh_.way(from, mesh_.at(star.neighbor[star.after(k)])));
+      };
+      all = all && area_from(there) > std::max(0.0, area_from(here));
+    });
+    return all;
+  }
+
+  FixedPoint place_after(Vec2f move) const {
+    return mesh_.moved(i_, {static_cast<double>(move.x), static_cast<double>(move.y)});
+  }
+
   void commit(Vec2f move) {
-    mesh_.move_to(i_, mesh_.moved(i_, {static_cast<double>(move.x), static_cast<double>(move.y)}));
+    mesh_.move_to(i_, place_after(move));
     look(next_);
     if ((near_ | far_) == 0) return;
     mesh_.mark(i_);

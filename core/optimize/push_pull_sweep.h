@@ -27,12 +27,12 @@ struct SweepCounts {
 /// and the ends of what still violates. Even strips first, then the odd ones, on control.threads() threads
 /// where that pays; last what reached too far for its strip.
 ///
-/// Guarantees: a moved point's triangles stay counter-clockwise (the step is halved until they are, or not
-/// made); a step is at most 0.2 d_hex long. Errors: cancelled, deadline_exceeded; the mesh is then between
-/// two states. Cost: about 0.06 us a visit. Determinism: plain IEEE float arithmetic in a fixed order: the
-/// same on any number of threads and any vector width. Reference: Ahmed, Guo, Yan, Franceschi, Zhang,
-/// Deussen, "A Simple Push-Pull Algorithm for Blue-Noise Sampling", 2017, for moving only what violates
-/// absolute radii.
+/// Guarantees: a moved point's triangles stay counter-clockwise and keep some area, or gain area where they
+/// had next to none (the step is halved until they do, or not made); a step is at most 0.2 d_hex long.
+/// Errors: cancelled, deadline_exceeded; the mesh is then between two states. Cost: about 0.06 us a visit.
+/// Determinism: plain IEEE float arithmetic in a fixed order: the same on any number of threads and any
+/// vector width. Reference: Ahmed, Guo, Yan, Franceschi, Zhang, Deussen, "A Simple Push-Pull Algorithm for
+/// Blue-Noise Sampling", 2017, for moving only what violates absolute radii.
 SweepCounts push_pull_sweep(StarMesh& mesh, const PushPull& targets, const Control& control);
 
 /// The same for one point. Returns whether it moved.

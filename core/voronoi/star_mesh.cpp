@@ -61,11 +61,6 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
   marks_.assign((size() + 63) / 64, 0);
 }
 
-Vec2 StarMesh::offset(std::size_t i, std::size_t j) const {
-  return {static_cast<double>(static_cast<std::int32_t>(at_[j].x - at_[i].x)) * scale_.x,
-          static_cast<double>(static_cast<std::int32_t>(at_[j].y - at_[i].y)) * scale_.y};
-}
-
 // Cocircular neighbors have no one triangulation: points are nudged, by far less than any target's margin.
 constexpr double nudges[] = {0, 1e-7, 1e-6, 1e-5};
 

@@ -88,7 +88,11 @@ class StarMesh {
   /// Units of d_hex a fixed-point step, along each axis.
   Vec2 scale() const { return scale_; }
   /// From point i to point j, the short way, in units of d_hex.
-  Vec2 offset(std::size_t i, std::size_t j) const;
+  Vec2 offset(std::size_t i, std::size_t j) const { return way(at_[i], at_[j]); }
+  Vec2 way(FixedPoint from, FixedPoint to) const {
+    return {static_cast<double>(static_cast<std::int32_t>(to.x - from.x)) * scale_.x,
+            static_cast<double>(static_cast<std::int32_t>(to.y - from.y)) * scale_.y};
+  }
 
   void move_to(std::size_t i, FixedPoint to) {
     const auto both = std::bit_cast<std::uint64_t>(to);
@@ -170,7 +174,6 @@ class StarMesh {
   bool try_flip(std::uint32_t a, std::uint32_t b, Suspects& suspects);
   void flip(std::uint32_t a, int k, Suspects& suspects);
   bool is_short_way(Vec2 edge) const;
-  Vec2 way(std::size_t i, FixedPoint place) const;
   std::size_t nearest(FixedPoint place, std::size_t from) const;
   std::optional<std::array<std::uint32_t, 3>> triangle_at(FixedPoint place, std::size_t near) const;
 

@@ -96,19 +96,14 @@ bool StarMesh::remove(std::size_t i) {
   return true;
 }
 
-Vec2 StarMesh::way(std::size_t i, FixedPoint place) const {
-  return {static_cast<double>(static_cast<std::int32_t>(place.x - at_[i].x)) * scale_.x,
-          static_cast<double>(static_cast<std::int32_t>(place.y - at_[i].y)) * scale_.y};
-}
-
 /// The point nearest to a place: always on to the nearest of a point's neighbors, which in a Delaunay
 /// triangulation never ends elsewhere.
 std::size_t StarMesh::nearest(FixedPoint place, std::size_t from) const {
-  double best = norm2(way(from, place));
+  double best = norm2(way(at_[from], place));
   for (std::size_t here = from;; here = from) {
     const Star& star = stars_[here];
     for (int k = 0; k < star.degree; ++k) {
-      const double distance2 = norm2(way(star.neighbor[k], place));
+      const double distance2 = norm2(way(at_[star.neighbor[k]], place));
       if (!(distance2 < best)) continue;
       best = distance2;
       from = star.neighbor[k];
@@ -125,7 +120,7 @@ std::optional<std::array<std::uint32_t, 3>> StarMesh::triangle_at(FixedPoint pla
                                     stars_[near].neighbor[1]};
   for (int steps = 0; steps < most_steps; ++steps) {
     std::size_t k = 0;
-    while (k < 3 && cross(offset(t[k], t[(k + 1) % 3]), way(t[k], place)) >= 0) ++k;
+    while (k < 3 && cross(offset(t[k], t[(k + 1) % 3]), way(at_[t[k]], place)) >= 0) ++k;
     if (k == 3) return t;
     const std::uint32_t a = t[k], b = t[(k + 1) % 3];
     t = {b, a, stars_[a].neighbor[stars_[a].before(stars_[a].find(b))]};

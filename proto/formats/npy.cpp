@@ -218,10 +218,11 @@ std::string to_text(const std::vector<std::size_t>& shape) {
 void check_point_set(const NpyHeader& header, std::size_t row_limit) {
   const auto& shape = header.shape;
   if (shape.size() != 2 || (shape[1] != 2 && shape[1] != 3)) {
-    throw Error(ErrorCode::invalid_parameters,
-                "the npy array has shape " + to_text(shape) +
-                    "; a point set has shape (n, 2) or (n, 3), one row a point: "
-                    "use points.reshape(-1, 2)");
+    throw Error(
+        ErrorCode::invalid_parameters,
+        "the npy array has shape " + to_text(shape) +
+            "; a point set has shape (n, 2) or (n, 3), one row a point: use " +
+            (shape.size() == 2 && (shape[0] == 2 || shape[0] == 3) ? "points.T" : "points.reshape(-1, 2)"));
   }
   if (shape[0] > row_limit) {
     throw Error(ErrorCode::too_large, "the npy array has " + std::to_string(shape[0]) +

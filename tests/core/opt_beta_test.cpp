@@ -12,6 +12,7 @@
 #include "core/generate/generate.h"
 #include "core/generate/lattice.h"
 #include "core/generate/poisson_disk.h"
+#include "core/optimize/push_pull.h"
 #include "tests/support/oracle.h"
 #include "tests/support/vector_widths.h"
 
@@ -101,6 +102,46 @@ TEST(OptBeta, RipensWhatIsStuckOnTheWayDown) {
     EXPECT_EQ(result.converged, true) << n;
     EXPECT_LE(measure_spacing(result.points, control).beta, 0.667) << n;
   }
+}
+
+TEST(OptBeta, LoosensLatticesWhosePushesAndPullsCancel) {
+  Control control;
+  const auto torus = std::make_shared<Torus>();
+  for (const std::uint64_t n : {44u, 284u, 2900u})
+    for (const PointSet& lattice : {square_lattice(torus, n, control), hexagonal_lattice(torus, n, control)})
+      for (const auto randomness : {OptBetaOptions::Randomness::gentle, OptBetaOptions::Randomness::fast}) {
+        const OptimizeResult result = opt_beta(lattice, {0.70, randomness, {}}, control);
+        EXPECT_EQ(result.converged, true) << n;
+        EXPECT_LE(measure_spacing(result.points, control).beta, 0.70) << n;
+      }
+}
+
+TEST(OptBeta, SpreadsClustersOverTheirDomain) {
+  Control control;
+  for (const double side : {.1, .03, .01})
+    for (const std::size_t n : {60u, 200u}) {
+      PointSet cluster = random_points(1, 1, n, 60);
+      for (double& c : cluster.coordinates) c = .4 + side * c;
+      const OptimizeResult result = opt_beta(cluster, to(0.80), control);
+      EXPECT_EQ(result.converged, true) << n << " points in " << side;
+      EXPECT_LE(measure_spacing(result.points, control).beta, 0.80) << n << " points in " << side;
+    }
+}
+
+TEST(OptBeta, DoesNotLeaveTightPairsAmongOtherPoints) {
+  Control control;
+  PointSet points = mps(400, 5);
+  for (std::size_t i = 0; i < 40; ++i) {  // pairs as near as 1e-6
+    const Vec3 p = points[10 * i];
+    points.push_back({wrap(p.x + 1e-6 * static_cast<double>(1 + i), 1), p.y, 0});
+  }
+  for (const double beta : {0.8, 0.7}) {
+    const OptimizeResult result = opt_beta(points, to(beta), control);
+    EXPECT_EQ(result.converged, true);
+    EXPECT_LE(measure_spacing(result.points, control).beta, beta);
+  }
+  const OptimizeResult pushed = push_pull(points, {.8, .68, {}, 2000}, control);
+  EXPECT_EQ(pushed.converged, true);
 }
 
 TEST(OptBeta, KeepsTheBestStateWhenItsVisitsRunOut) {

@@ -30,7 +30,7 @@ TEST(Torus, RefusesSidesThatAreNoSides) {
     expect_error([&] { Torus(side, 1); }, ErrorCode::invalid_parameters, "/width");
     expect_error([&] { Torus(1, side); }, ErrorCode::invalid_parameters, "/height");
   }
-  expect_error([] { Torus(1, 1001); }, ErrorCode::invalid_parameters, "/width", "1000 times");
+  expect_error([] { Torus(1, 1001); }, ErrorCode::invalid_parameters, "/height", "1000 times");
 }
 
 TEST(Torus, MeasuresDistanceAroundTheSeam) {

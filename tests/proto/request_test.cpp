@@ -150,7 +150,7 @@ TEST(ReadRequest, RefusesLengthsThatNoTorusHas) {
       {"generate", R"({"count":10,"domain":{"width":0}})", invalid, "/domain/width", "from 1e-6 to 1e6"},
       {"generate", R"({"count":10,"domain":{"height":-1}})", invalid, "/domain/height", "from 1e-6 to 1e6"},
       {"generate", R"({"count":10,"domain":{"width":1e7}})", invalid, "/domain/width", "from 1e-6 to 1e6"},
-      {"generate", R"({"count":10,"domain":{"width":2000}})", invalid, "/domain/height", "less elongated"},
+      {"generate", R"({"count":10,"domain":{"width":2000}})", invalid, "/domain/width", "less elongated"},
       {"analyze", R"({"points":[[0,0],[0.5,0],[0,0.5]],"domain":{"width":0}})", invalid, "/domain/width",
        "side"},
       {"analyze", R"({"points":{"points":[[0,0],[0.5,0],[0,0.5]],"domain":{"width":0}}})", invalid,
