@@ -30,13 +30,15 @@ MeshRadii BestState::measure_apart() const {
 void BestState::note(int sweep, double fraction, MeshRadii radii) {
   const double d = mesh_.spacing(), beta = radii.outermost / radii.shortest;
   history_.push_back({sweep, beta, radii.outermost * d, radii.shortest * d});
-  if (beta < best_beta_) keep(sweep, beta);
+  if (beta < best_beta_ && !preferred_) keep(sweep, beta);
   control_.report({std::min(1.0, fraction), sweep, beta, radii.outermost * d, radii.shortest * d});
 }
 
 void BestState::prefer_last() {
   const SweepRecord& last = history_.back();
-  if (last.beta <= history_.front().beta) keep(last.sweep, last.beta);
+  if (last.beta > history_.front().beta) return;
+  keep(last.sweep, last.beta);
+  preferred_ = true;
 }
 
 void BestState::keep(int sweep, double beta) {

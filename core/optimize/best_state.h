@@ -22,7 +22,8 @@ class BestState {
   /// The same where its radii are known already.
   void record(int sweep, double fraction, MeshRadii radii);
 
-  /// Makes the state recorded last the best one if it is at least as good as the input.
+  /// Makes the state recorded last the best one, whatever comes later, if it is at least as good as the
+  /// input.
   void prefer_last();
 
   /// The best state; the input, bit for bit, if measuring apart from the mesh finds nothing better. Moves
@@ -41,6 +42,7 @@ class BestState {
   LargeVector<FixedPoint> best_;
   int best_sweep_ = 0;
   double best_beta_ = std::numeric_limits<double>::infinity();
+  bool preferred_ = false;
   std::vector<SweepRecord> history_;
 };
 

@@ -105,8 +105,10 @@ class Relaxation {
   }
 
   OptimizeResult run() {
-    const std::optional<PushPullOptions> easier = within_reach();
-    if ((!easier || relax(*easier)) && relax(options_)) best_.prefer_last();
+    for (const PushPullOptions& stage : stages()) {
+      if (!relax(stage)) break;
+      if (stage.area_sd || holds_all(stage)) best_.prefer_last();
+    }
     OptimizeResult result = best_.result();
     result.visits = static_cast<double>(visits_) / static_cast<double>(mesh_.size());
     return result;
@@ -115,15 +117,23 @@ class Relaxation {
  private:
   /// Targets that are hard or out of reach make points wander; a state that is known to be reached comes
   /// first, so that something is won in any case.
-  std::optional<PushPullOptions> within_reach() const {
+  std::vector<PushPullOptions> stages() const {
     constexpr double largest_rho = .9, least_coverage = .62, least_area_sd = .03;
-    PushPullOptions easier = options_;
-    easier.rho = std::min(options_.rho, largest_rho);
-    easier.coverage = std::max(options_.coverage, least_coverage);
+    PushPullOptions radii = options_;
+    radii.rho = std::min(options_.rho, largest_rho);
+    radii.coverage = std::max(options_.coverage, least_coverage);
+    radii.area_sd.reset();
+    PushPullOptions areas = radii;
+    areas.area_sd = least_area_sd;
     const bool hard_areas = options_.area_sd && *options_.area_sd < least_area_sd;
-    if (easier.rho == options_.rho && easier.coverage == options_.coverage && !hard_areas) return {};
-    easier.area_sd.reset();
-    return easier;
+    if (hard_areas) return {radii, areas, options_};
+    if (radii.rho != options_.rho || radii.coverage != options_.coverage) return {radii, options_};
+    return {options_};
+  }
+
+  bool holds_all(const PushPullOptions& stage) const {
+    return stage.rho == options_.rho && stage.coverage == options_.coverage &&
+           stage.area_sd == options_.area_sd;
   }
 
   /// Whether all targets hold in the end.

@@ -20,8 +20,8 @@ struct PushPullOptions {
 /// push_pull_sweep and capacity_step; until nothing violates a target.
 ///
 /// Where a target is harder than a rho of .9, a coverage of .62, or areas to within .03, radii no harder than
-/// those are reached first, so that something is won if it is out of reach. .90 with .62 (beta .689) is
-/// about what the method reaches from MPS.
+/// those are reached first, then areas to within .03, so that something is won if it is out of reach. .90
+/// with .62 (beta .689) is about what the method reaches from MPS.
 ///
 /// Targets so loose that a state which holds them may have a higher beta than the input are tightened until
 /// it can't.

@@ -364,14 +364,15 @@ void WorkerPool::tend_run(Run& run) {
   }
   const milliseconds third(options_.lease_ms / 3);
   const milliseconds pulse = run.heartbeat_due ? std::min(third, kHeartbeatWithProgressEvery) : third;
-  if (now - run.last_heartbeat >= pulse) {
+  const bool tells = run.event_due && now >= run.next_event;
+  if (tells || now - run.last_heartbeat >= pulse) {  // what is stored is never behind what was told
     const Heartbeat answer = store_.heartbeat(run.claim, run.latest.fraction, message_for(run.latest));
     run.last_heartbeat = now;
     run.heartbeat_due = false;
     if (!answer.still_ours) return run.stop_because(Run::Reason::lost);
     if (answer.cancel) run.stop_because(Run::Reason::dismissed);
   }
-  if (run.event_due && now >= run.next_event) {
+  if (tells) {
     store_.append_event(run.claim, "progress", event_for(run.latest));
     run.next_event = now + milliseconds(options_.progress_every_ms);
     run.event_due = false;

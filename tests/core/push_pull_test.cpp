@@ -60,6 +60,13 @@ TEST(PushPull, ReachesAreasToo) {
   }
 }
 
+TEST(PushPull, KeepsAreasThatAreWithinReachWhenThoseAskedForAreNot) {
+  Control control;
+  const OptimizeResult result = push_pull(mps(400, 3), {.87, .65, .005, 1000}, control);
+  EXPECT_EQ(result.converged, false);
+  EXPECT_LE(worst_area_deviation(result.points), .03);
+}
+
 TEST(PushPull, ReturnsWhatHoldsItsTargetsBitForBit) {
   Control control;
   const PointSet lattice = triangular_lattice(std::make_shared<Torus>(1, std::sqrt(3.0)), 800, control);
