@@ -139,9 +139,11 @@ void add_results(ordered_json& schemas) {
       {"description",
        "whether the target is reached, for beta: whether beta_upper is at most the target; null for methods "
        "without one"}};
-  optimize["history"] = {{"type", "array"},
-                         {"description", "[sweep, beta, r_c, r_f], from the input (sweep 0) on"},
-                         {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
+  optimize["history"] = {
+      {"type", "array"},
+      {"description",
+       "[sweep, beta, r_c, r_f], from the input (sweep 0; with its holes filled if `enrich` is set) on"},
+      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
   ordered_json analyze = common_result();
   for (const Measure& measure : measures()) analyze[measure.name] = measure.schema();
   schemas["GenerateResult"] = object(generate, {"n", "method", "parameters", "version", "domain", "points"});

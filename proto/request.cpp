@@ -364,13 +364,21 @@ Cost expected_cost(const Request& request) {
   return generate_cost(std::get<GenerateRequest>(request.operation)) + times(n, writing);
 }
 
+/// The field that says how many points there are.
+std::string size_field(const Request& request) {
+  const auto* generate = std::get_if<GenerateRequest>(&request.operation);
+  if (generate == nullptr) return "/points";
+  return argument(generate->arguments, "count") ? "/count" : "/radius";
+}
+
 void require_affordable(const Request& request, const Limits& limits) {
   const double bytes = expected_cost(request).bytes;
   if (bytes <= static_cast<double>(limits.memory_bytes)) return;
   throw Error(ErrorCode::too_large,
               "the job would need about " + std::to_string(static_cast<std::uint64_t>(bytes) >> 20) +
                   " MiB of memory, but the limit here is " + std::to_string(limits.memory_bytes >> 20) +
-                  " MiB; ask for fewer points");
+                  " MiB; ask for fewer points",
+              size_field(request));
 }
 
 }  // namespace wellspaced

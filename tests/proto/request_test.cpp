@@ -253,7 +253,10 @@ TEST(ReadRequest, RefusesJobsThatNeedMoreMemoryThanTheLimit) {
   EXPECT_NO_THROW(read("generate", R"({"count":10000})", limits));
   expect_refusal(
       [&] { read("generate", R"({"count":5000000})", limits); },
-      {"generate", "5M", ErrorCode::too_large, "", "the limit here is 100 MiB; ask for fewer points"});
+      {"generate", "5M", ErrorCode::too_large, "/count", "the limit here is 100 MiB; ask for fewer points"});
+  expect_refusal([&] { read("optimize", R"({"points":{"generate":{"radius":0.0005}}})", limits); },
+                 {"optimize", "2.8M", ErrorCode::too_large, "/points",
+                  "the limit here is 100 MiB; ask for fewer points"});
 }
 
 TEST(ReadRequest, RefusesBodiesItCantReadAndNamesTheWayOut) {
