@@ -111,8 +111,9 @@ struct Row {
     return places[0];
   }
 
-  /// The same, one place on: the first comes last. Of four-byte numbers.
+  /// The same, one place on: the first comes last.
   HWY_INLINE Row next() const {
+    static_assert(sizeof(T) == sizeof(std::int32_t));
     if constexpr (vectors == 1) {
       alignas(64) static constexpr std::int32_t on[16] = {1, 2,  3,  4,  5,  6,  7,  W == 8 ? 0 : 8,
                                                           9, 10, 11, 12, 13, 14, 15, 0};
@@ -124,8 +125,9 @@ struct Row {
       return load(places + 1);
     }
   }
-  /// One place back; the first one gets the last of `degree` places. Of four-byte numbers.
+  /// One place back; the first one gets the last of `degree` places.
   HWY_INLINE Row before(int degree) const {
+    static_assert(sizeof(T) == sizeof(std::int32_t));
     if constexpr (vectors == 1) {
       return {{hn::TableLookupLanes(v[0], hn::SetTableIndices(D(), before_of_degree.place[degree]))}};
     } else {

@@ -30,10 +30,7 @@ std::optional<Format> output_format(const Invocation& i) {
   if (name.empty() && i.output_path != "-") name = std::filesystem::path(i.output_path).extension().string();
   if (name.starts_with('.')) name.erase(0, 1);
   const auto formats = formats_of(i.operation);
-  if (name.empty()) return formats.front();
-  for (const Format format : formats)
-    if (name_of(format) == name) return format;
-  return std::nullopt;
+  return name.empty() ? formats.front() : format_named(name, formats);
 }
 
 std::string no_such_format(const Invocation& i) {

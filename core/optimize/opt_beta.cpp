@@ -66,9 +66,10 @@ class Descent {
 
  private:
   struct Allowance {
-    double visits, flips;                                     // in all, over all points
-    bool escalate;                                            // raise the weights when nothing moves forward
-    int look_across_after = std::numeric_limits<int>::max();  // sweeps; before, it costs more than it brings
+    double visits, flips;  // in all, over all points
+    bool escalate;         // raise the weights when nothing moves forward
+    // Sweeps before edges are looked across, which at first costs more than it brings.
+    int look_across_after = std::numeric_limits<int>::max();
   };
 
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -113,6 +114,15 @@ class Descent {
     return false;
   }
 
+  /// Returns how many points moved.
+  std::size_t sweep_once(const PushPull& targets) {
+    const SweepCounts count = push_pull_sweep(mesh_, targets, control_);
+    visits_ += static_cast<double>(count.visits);
+    flips_ += static_cast<double>(count.flips);
+    ++sweeps_;
+    return count.moves;
+  }
+
   void shake() {
     constexpr double farthest = .03;
     std::vector<Vec2> moves(mesh_.size());
@@ -129,10 +139,7 @@ class Descent {
     mesh_.mark_all();
     for (int sweep = 1;; ++sweep) {
       targets.look_across = sweep > allowance.look_across_after;
-      const SweepCounts count = push_pull_sweep(mesh_, targets, control_);
-      visits_ += static_cast<double>(count.visits);
-      flips_ += static_cast<double>(count.flips);
-      ++sweeps_;
+      const std::size_t moves = sweep_once(targets);
       if (!mesh_.any_marked()) {
         flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
@@ -141,7 +148,7 @@ class Descent {
         record();
       else
         report(history_.back());
-      if (allowance.escalate && calm.lasts(count.moves, mesh_.size())) {
+      if (allowance.escalate && calm.lasts(moves, mesh_.size())) {
         targets.push = std::min(1.6, targets.push * 1.08);
         targets.pull = std::min(2.0, std::max(targets.pull, targets.pull * 1.08));
       }
@@ -187,10 +194,7 @@ class Descent {
     const double enough = std::min(budget_, visits_ + portion.visits * static_cast<double>(mesh_.size()));
     mesh_.mark_all();
     while (mesh_.any_marked() && visits_ < enough) {
-      const SweepCounts count = push_pull_sweep(mesh_, portion.targets, control_);
-      visits_ += static_cast<double>(count.visits);
-      flips_ += static_cast<double>(count.flips);
-      ++sweeps_;
+      sweep_once(portion.targets);
       report(history_.back());
     }
     flips_ += static_cast<double>(mesh_.legalize_all(control_));

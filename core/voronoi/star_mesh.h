@@ -89,12 +89,14 @@ class StarMesh {
   Vec2 scale() const { return scale_; }
   /// From point i to point j, the short way, in units of d_hex.
   Vec2 offset(std::size_t i, std::size_t j) const { return way(at_[i], at_[j]); }
+  /// The same between places.
   Vec2 way(FixedPoint from, FixedPoint to) const {
     return {static_cast<double>(static_cast<std::int32_t>(to.x - from.x)) * scale_.x,
             static_cast<double>(static_cast<std::int32_t>(to.y - from.y)) * scale_.y};
   }
 
   void move_to(std::size_t i, FixedPoint to) {
+    // In one store: who loads both at once, soon after, would have to wait for two.
     const auto both = std::bit_cast<std::uint64_t>(to);
     std::memcpy(&at_[i].x, &both, sizeof both);
   }

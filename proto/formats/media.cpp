@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <optional>
 
 #include "core/error.h"
 
@@ -87,6 +86,12 @@ std::string_view media_type_of(Format format) {
   return format_rows[static_cast<std::size_t>(format)].media_type;
 }
 
+std::optional<Format> format_named(std::string_view name, std::span<const Format> offered) {
+  for (const Format format : offered)
+    if (name_of(format) == name) return format;
+  return std::nullopt;
+}
+
 Format input_format(std::string_view content_type) {
   const std::string_view type = take_until(content_type, ';');
   for (const FormatRow& row : format_rows)
@@ -101,8 +106,7 @@ Format input_format(std::string_view content_type) {
 Format negotiate(std::string_view format_parameter, std::string_view accept,
                  std::span<const Format> offered) {
   if (!format_parameter.empty()) {
-    for (const Format format : offered)
-      if (name_of(format) == format_parameter) return format;
+    if (const auto format = format_named(format_parameter, offered)) return *format;
     refuse(offered);
   }
   if (trim(accept).empty()) return offered.front();

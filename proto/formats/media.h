@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ enum class Format { json, npy, csv, svg };
 /// "json", "npy", ...: as in ?format= and file extensions.
 std::string_view name_of(Format format);
 std::string_view media_type_of(Format format);
+/// The offered format of this name; nothing if there is none.
+std::optional<Format> format_named(std::string_view name, std::span<const Format> offered);
 
 /// The format of a request's body. Errors: unsupported_media_type naming what is taken, and what to send
 /// instead of a form.
