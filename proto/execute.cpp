@@ -8,7 +8,7 @@
 #include "core/analyze/spacing.h"
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 
 namespace wellspaced {
 namespace {
@@ -42,26 +42,33 @@ auto at(const std::string& prefix, const Work& work) {
   }
 }
 
-PointSet generate(const GenerateRequest& request, Control& control, const std::string& where) {
+/// What a source gave, and, if it came out of an optimizer, what that had to say.
+struct Made {
+  PointSet points;
+  ordered_json optimized;
+};
+
+Made make(const PointSource& source, Control& control);
+
+PointSet generate(const GenerateRequest& request, Control& control) {
   Rng rng(request.seed);
-  return at(where, [&] { return request.method->run(request.domain, request.arguments, rng, control); });
+  return at(request.pointer,
+            [&] { return request.method->run(request.domain, request.arguments, rng, control); });
 }
 
 /// Where a request says how many points it wants.
 std::string density_pointer(const GenerateRequest& request) {
-  return request.arguments.count("radius") != 0 ? "/radius" : "/count";
+  return request.pointer + (request.arguments.count("radius") != 0 ? "/radius" : "/count");
 }
 
 /// For work that needs three points at least. How many a radius gives is known only now.
-PointSet points_of(const PointSource& source, Control& control) {
-  if (const auto* points = std::get_if<PointSet>(&source)) return *points;
-  const auto& request = std::get<GenerateRequest>(source);
-  PointSet points = generate(request, control, "/points/generate");
+PointSet generate_three(const GenerateRequest& request, Control& control) {
+  PointSet points = generate(request, control);
   if (points.size() < 3)
     throw Error(ErrorCode::degenerate_input,
                 "this gives " + std::to_string(points.size()) +
                     " points, but at least 3 are needed here; ask for more of them, that is a smaller radius",
-                "/points/generate" + density_pointer(request));
+                density_pointer(request));
   return points;
 }
 
@@ -78,23 +85,32 @@ ordered_json parameters_to_json(const Method& method, const Arguments& arguments
   return out;
 }
 
-void add_origin(ordered_json& summary, const GenerateRequest& request) {
-  if (request.method->random) summary["seed"] = request.seed;
-}
-
 void add_end(ordered_json& summary, const PointSet& points) {
   summary["version"] = version();
   summary["domain"] = domain_to_json(*points.domain);
 }
 
+/// The seed that a set came from, if there was one.
+std::optional<std::uint64_t> seed_of(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from))
+    return generated->method->random ? std::optional(generated->seed) : std::nullopt;
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return seed_of((*optimized)->points);
+  return std::nullopt;
+}
+
+void add_seed(ordered_json& summary, const PointSource& source) {
+  if (const auto seed = seed_of(source)) summary["seed"] = *seed;
+}
+
 Result run(const GenerateRequest& request, Control& control) {
-  Result result{"generate", {}, generate(request, control, ""), ""};
-  result.summary = {{"n", result.points.size()},
-                    {"method", request.method->name},
-                    {"parameters", parameters_to_json(*request.method, request.arguments)}};
-  add_origin(result.summary, request);
-  add_end(result.summary, result.points);
-  return result;
+  PointSet points = generate(request, control);
+  ordered_json summary = {{"n", points.size()},
+                          {"method", request.method->name},
+                          {"parameters", parameters_to_json(*request.method, request.arguments)}};
+  if (request.method->random) summary["seed"] = request.seed;
+  add_end(summary, points);
+  return {"generate", std::move(summary), one_group(std::move(points)), ""};
 }
 
 ordered_json history_to_json(const std::vector<SweepRecord>& history) {
@@ -103,13 +119,14 @@ ordered_json history_to_json(const std::vector<SweepRecord>& history) {
   return rows;
 }
 
-/// What a method has against the points as a whole is said at /points.
+/// What a method has against the points as a whole is said at the points.
 OptimizeResult optimize(const OptimizeRequest& request, const PointSet& input, Control& control) {
   try {
     return request.method->run(input, request.arguments, control);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::degenerate_input || !error.where().empty()) throw;
-    throw error.within("/points");
+    if (error.code() == ErrorCode::degenerate_input && error.where().empty())
+      throw error.within(request.points.pointer);
+    throw error.within(request.pointer);
   }
 }
 
@@ -124,8 +141,8 @@ ordered_json converged(const OptimizeResult& result, const Arguments& arguments,
 /// What the optimizer starts from, and how many points were inserted for that.
 std::pair<PointSet, std::size_t> input_of(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.5), second(control, 0.5, 1);
-  PointSet points = points_of(request.points, first);
-  return at("/points", [&] {
+  PointSet points = make(request.points, first).points;
+  return at(request.points.pointer, [&] {
     require_usable(points, control);
     if (!request.enrich) return std::pair(std::move(points), std::size_t{0});
     PointSet enriched = enrich(points, enrichment_coverage(points, control), second);
@@ -134,42 +151,106 @@ std::pair<PointSet, std::size_t> input_of(const OptimizeRequest& request, Contro
   });
 }
 
-Result run(const OptimizeRequest& request, Control& control) {
+/// The optimized points, and all there is to say of them but version and domain.
+Made optimize(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.02), second(control, 0.02, 0.98);
   const auto [input, inserted] = input_of(request, first);
   OptimizeResult optimized = optimize(request, input, second);
   const Spacing s = measure_spacing(optimized.points, control);
   const std::optional<Certificate> proof = certify(optimized.points, control);
-  Result result{"optimize", {}, std::move(optimized.points), ""};
-  result.summary = {{"n", s.n},
-                    {"method", request.method->name},
-                    {"parameters", parameters_to_json(*request.method, request.arguments)},
-                    {"beta", s.beta},
-                    {"r_f", s.r_f},
-                    {"r_c", s.r_c},
-                    {"rho", s.rho},
-                    {"beta_i_max", s.beta_i_max},
-                    {"beta_i_mean", s.beta_i_mean},
-                    {"sweeps", optimized.sweeps}};
-  if (request.enrich) result.summary["enriched"] = inserted;
-  result.summary.update(certificate_to_json(proof));
-  result.summary["converged"] = converged(optimized, request.arguments, proof);
-  result.summary["history"] = history_to_json(optimized.history);
-  if (const auto* generated = std::get_if<GenerateRequest>(&request.points))
-    add_origin(result.summary, *generated);
-  add_end(result.summary, result.points);
-  return result;
+  ordered_json summary = {{"n", s.n},
+                          {"method", request.method->name},
+                          {"parameters", parameters_to_json(*request.method, request.arguments)},
+                          {"beta", s.beta},
+                          {"r_f", s.r_f},
+                          {"r_c", s.r_c},
+                          {"rho", s.rho},
+                          {"beta_i_max", s.beta_i_max},
+                          {"beta_i_mean", s.beta_i_mean},
+                          {"sweeps", optimized.sweeps}};
+  if (request.enrich) summary["enriched"] = inserted;
+  summary.update(certificate_to_json(proof));
+  summary["converged"] = converged(optimized, request.arguments, proof);
+  summary["history"] = history_to_json(optimized.history);
+  add_seed(summary, request.points);
+  return {std::move(optimized.points), std::move(summary)};
+}
+
+Result run(const OptimizeRequest& request, Control& control) {
+  Made made = optimize(request, control);
+  add_end(made.optimized, made.points);
+  return {"optimize", std::move(made.optimized), one_group(std::move(made.points)), ""};
+}
+
+Made make(const PointSource& source, Control& control) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from))
+    return {generate_three(*generated, control), {}};
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return optimize(**optimized, control);
+  return {std::get<PointSet>(source.from), {}};
+}
+
+/// Bad parameters are said where they were given, what the points are to blame for at the points.
+ordered_json measure(const MeasureCall& call, const SourceGroup& group, std::span<const PointSet> sets,
+                     const Control& control) {
+  try {
+    return call.measure->run(sets, call.arguments, control);
+  } catch (const Error& error) {
+    throw error.within(error.where().empty() ? group.pointer : call.pointer);
+  }
+}
+
+/// The sets of a group, and what each came out of.
+std::pair<ResultGroup, ordered_json> make_group(const SourceGroup& group, Control& control) {
+  ResultGroup made{group.label, {}};
+  ordered_json optimized = ordered_json::array();
+  const auto count = static_cast<double>(group.sets.size());
+  for (const PointSource& source : group.sets) {
+    const auto done = static_cast<double>(made.sets.size());
+    Part part(control, done / count, (done + 1) / count);
+    Made set = make(source, part);
+    at(source.pointer, [&] { require_usable(set.points, control); });
+    if (!made.sets.empty())
+      require_same_size(static_cast<double>(made.sets.front().size()), static_cast<double>(set.points.size()),
+                        source.pointer);
+    if (!set.optimized.is_null()) optimized.push_back(std::move(set.optimized));
+    made.sets.push_back(std::move(set.points));
+  }
+  return {std::move(made), std::move(optimized)};
+}
+
+/// Makes and measures one group, and adds what there is to say of it.
+ResultGroup analyze(const AnalyzeRequest& request, const SourceGroup& group, Control& control,
+                    ordered_json& summary) {
+  Part first(control, 0, 0.5), second(control, 0.5, 1);
+  auto [made, optimized] = make_group(group, first);
+  summary["n"] = made.sets.front().size();
+  if (made.sets.size() > 1) summary["sets"] = made.sets.size();
+  for (const MeasureCall& call : request.measures)
+    summary[call.measure->name] = measure(call, group, made.sets, second);
+  if (!optimized.empty()) summary["optimized"] = std::move(optimized);
+  add_seed(summary, group.sets.front());
+  return std::move(made);
 }
 
 Result run(const AnalyzeRequest& request, Control& control) {
-  Part first(control, 0, 0.5), second(control, 0.5, 1);
-  Result result{"analyze", {}, points_of(request.points, first), ""};
-  result.summary = {{"n", result.points.size()}};
-  for (const Measure* measure : request.measures)
-    result.summary[measure->name] = at("/points", [&] { return measure->run(result.points, second); });
-  if (const auto* generated = std::get_if<GenerateRequest>(&request.points))
-    add_origin(result.summary, *generated);
-  add_end(result.summary, result.points);
+  Result result{"analyze", ordered_json::object(), {}, ""};
+  const auto count = static_cast<double>(request.groups.size());
+  for (const SourceGroup& group : request.groups) {
+    const auto done = static_cast<double>(result.groups.size());
+    Part part(control, done / count, (done + 1) / count);
+    ordered_json summary = ordered_json::object();
+    if (request.compares) summary["label"] = group.label;
+    result.groups.push_back(analyze(request, group, part, summary));
+    if (!request.compares) {
+      result.summary = std::move(summary);
+      add_end(result.summary, result.points());
+      continue;
+    }
+    summary["domain"] = domain_to_json(*result.groups.back().sets.front().domain);
+    result.summary["compare"].push_back(std::move(summary));
+  }
+  if (request.compares) result.summary["version"] = version();
   return result;
 }
 

@@ -45,9 +45,9 @@ std::string pointer_segment(std::string_view key) {
 /// Hears the parser's events and builds the document: the tree as usual, the table without a tree.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
-  Builder(Source& source, std::span<const std::string_view> table_pointers, std::size_t row_limit)
-      : source_(source), table_pointers_(table_pointers), row_limit_(row_limit) {
-    for (const std::string_view pointer : table_pointers) table_keys_.push_back(split(pointer));
+  Builder(Source& source, std::span<const std::string_view> table_places, std::size_t row_limit)
+      : source_(source), row_limit_(row_limit) {
+    for (const std::string_view place : table_places) places_.push_back(split(place));
   }
 
   JsonDocument take() { return std::move(document_); }
@@ -89,8 +89,8 @@ class Builder final : public nlohmann::json_sax<Json> {
     if (in_row_) refuse_in_table("an array");
     if (in_table_) {
       start_row();
-    } else if (const auto table = table_here(); table != table_keys_.end()) {
-      start_table(table_pointers_[static_cast<std::size_t>(table - table_keys_.begin())]);
+    } else if (at_table()) {
+      start_table();
     } else {
       open(Json::array());
     }
@@ -172,32 +172,37 @@ class Builder final : public nlohmann::json_sax<Json> {
     levels_.push_back({node, ""});
   }
 
-  std::vector<std::vector<std::string>>::const_iterator table_here() const {
-    return std::find_if(table_keys_.begin(), table_keys_.end(), [&](const std::vector<std::string>& keys) {
-      return std::equal(
-          keys.begin(), keys.end(), levels_.begin(), levels_.end(),
-          [](const std::string& key, const Level& l) { return l.node->is_object() && l.key == key; });
+  static bool fits(const std::string& key, const Level& level) {
+    return key == "*" ? level.node->is_array() : level.node->is_object() && level.key == key;
+  }
+
+  bool at_table() const {
+    return std::any_of(places_.begin(), places_.end(), [&](const std::vector<std::string>& keys) {
+      const bool anywhere = !keys.empty() && keys.front() == "**";
+      const auto key = keys.begin() + (anywhere ? 1 : 0);
+      const auto count = keys.end() - key, levels = static_cast<std::ptrdiff_t>(levels_.size());
+      return (anywhere ? levels >= count : levels == count) &&
+             std::equal(key, keys.end(), levels_.end() - count, fits);
     });
   }
 
-  void start_table(std::string_view where) {
-    if (document_.points) {
-      refuse("a second list of points; the first is at " + document_.points_pointer + ": send only one");
-    }
+  void start_table() {
+    const std::string where = pointer();
     add(Json::array());
-    document_.points.emplace();
-    document_.points_pointer = where;
+    rows_before_ += document_.tables.empty() ? 0 : table().rows;
+    document_.tables.push_back({where, {}});
     in_table_ = true;
   }
 
-  Table& table() { return *document_.points; }
-  const Table& table() const { return *document_.points; }
+  Table& table() { return document_.tables.back().table; }
+  const Table& table() const { return document_.tables.back().table; }
+  std::size_t rows_left() const { return row_limit_ - rows_before_ - table().rows; }
 
   void start_row() {
-    if (table().rows == row_limit_) {
+    if (rows_left() == 0) {
       throw Error(ErrorCode::too_large,
                   "there are more points than the limit of " + std::to_string(row_limit_) + "; send fewer",
-                  document_.points_pointer);
+                  document_.tables.back().pointer);
     }
     in_row_ = true;
     row_size_ = 0;
@@ -209,7 +214,7 @@ class Builder final : public nlohmann::json_sax<Json> {
   /// it.
   void skim_rows() {
     Row row;
-    while (table().columns != 0 && table().rows + 1 < row_limit_) {
+    while (table().columns != 0 && rows_left() > 1) {
       const std::size_t bytes = skim_row(source_.rest(), table().columns, row);
       if (bytes == 0) return;
       source_.jump(bytes);
@@ -246,7 +251,7 @@ class Builder final : public nlohmann::json_sax<Json> {
   void reserve() {
     const std::string_view rest = source_.rest();
     const auto brackets = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '['));
-    table().values.reserve(std::min({brackets + 1, rest.size() / 6 + 2, row_limit_}) * table().columns);
+    table().values.reserve(std::min({brackets + 1, rest.size() / 6 + 2, rows_left()}) * table().columns);
   }
 
   void append(const Row& row) {
@@ -256,9 +261,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   }
 
   Source& source_;
-  std::span<const std::string_view> table_pointers_;
-  std::vector<std::vector<std::string>> table_keys_;
-  std::size_t row_limit_;
+  std::vector<std::vector<std::string>> places_;
+  std::size_t row_limit_, rows_before_ = 0;  ///< of the tables before this one
   JsonDocument document_;
   std::vector<Level> levels_;
   std::size_t values_ = 0;
@@ -269,14 +273,14 @@ class Builder final : public nlohmann::json_sax<Json> {
 
 }  // namespace
 
-JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_pointers,
+JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_places,
                        std::size_t row_limit) {
   // To the library a NUL is the end of the text, whatever follows.
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
     throw malformed_json(text, nul, "there is a NUL byte; write \\u0000 if it belongs to a string");
   }
   Source source(text);
-  Builder builder(source, table_pointers, row_limit);
+  Builder builder(source, table_places, row_limit);
   Json::sax_parse(SourceIterator(source), SourceIterator(), &builder);
   return builder.take();
 }

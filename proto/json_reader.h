@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -19,19 +19,25 @@ struct JsonLimits {
   static constexpr std::size_t pointer_key_bytes = 100;  ///< of a key in an error; then it is cut: "abc..."
 };
 
-/// `root` has an empty array where the points were, at `points_pointer`, one of the table pointers (empty
-/// also for the root: `points` tells). `points` has 2 or 3 columns and finite numbers; no rows and columns
+/// A list of points and where it stood. `table` has 2 or 3 columns and finite numbers; no rows and columns
 /// for an empty list.
-struct JsonDocument {
-  nlohmann::json root;
-  std::optional<Table> points;
-  std::string points_pointer;
+struct JsonTable {
+  std::string pointer;
+  Table table;
 };
 
-/// Reads a JSON text (RFC 8259) whose large part, a list of points, goes straight into doubles.
+/// `root` has an empty array where each list of points was.
+struct JsonDocument {
+  nlohmann::json root;
+  std::vector<JsonTable> tables;  ///< in the text's order
+};
+
+/// Reads a JSON text (RFC 8259) whose large parts, lists of points, go straight into doubles.
 ///
-/// An array found at one of `table_pointers` (RFC 6901, object keys only, no escapes; "" is the root) is read
-/// as [[x, y], ...] or [[x, y, z], ...]. Another value there is left to the caller, in `root`.
+/// An array found at one of `table_places` is read as [[x, y], ...] or [[x, y, z], ...]. Another value there
+/// is left to the caller, in `root`. A place is a JSON pointer (RFC 6901, no escapes; "" is the root) in
+/// which
+/// `*` stands for any index of an array, and a leading `/**` for any way down.
 ///
 /// Guarantees
 /// 1. Memory is bounded by the limits above, `row_limit` and a small multiple of the text's length, also for
@@ -43,11 +49,10 @@ struct JsonDocument {
 /// 1. malformed_request: not JSON, with line and column (in characters, from 1), byte offset (from 0) and
 ///    reason; nesting beyond the limit, with the pointer's beginning.
 /// 2. invalid_parameters, with the pointer: a number that overflows a double, a key twice in an object, a
-///    point that is not an array of 2 or 3 numbers or has another length than the first, a second list of
-///    points, too many values.
-/// 3. too_large: more than `row_limit` points; a string or number of more than 1 MiB.
+///    point that is not an array of 2 or 3 numbers or has another length than the first, too many values.
+/// 3. too_large: more than `row_limit` points in all; a string or number of more than 1 MiB.
 /// Cost: linear; points by-pass the library's lexer, which is several times slower.
-JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_pointers,
+JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_places,
                        std::size_t row_limit);
 
 }  // namespace wellspaced

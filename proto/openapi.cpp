@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/registry.h"
+#include "proto/measures/measures.h"
 #include "proto/openapi_schemas.h"
 #include "proto/operations.h"
 #include "proto/result.h"
@@ -143,10 +144,13 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
     for (const auto& [name, schema] : schemas.items()) add(name, schema);
     add("enrich", enrich_schema());
   } else {
-    ordered_json names = openapi_schemas()["AnalyzeRequest"]["properties"]["measures"];
-    add("measures", std::move(names));
+    ordered_json names = ordered_json::array();
+    for (const Measure& m : measures()) names.push_back(m.name);
+    add("measures", {{"type", "array"}, {"items", {{"type", "string"}, {"enum", names}}}, {"minItems", 1}});
     parameters.back()["style"] = "form";
     parameters.back()["explode"] = false;
+    for (const Measure& m : measures())
+      for (const Parameter& p : m.parameters) add(m.name + "." + p.name, parameter_schema(p));
   }
   const ordered_json domain = openapi_schemas()["Domain"]["properties"];
   for (const auto& [name, schema] : domain.items()) add("domain." + name, schema);

@@ -2,7 +2,7 @@
 
 #include "core/domain/torus.h"
 #include "core/registry.h"
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 #include "proto/operations.h"
 #include "proto/result.h"
 
@@ -108,9 +108,10 @@ ordered_json source_schema() {
   };
   ordered_json inline_set = closed(
       object({{"points", schema_reference("Points")}, {"domain", schema_reference("Domain")}}, {"points"}));
-  return {{"description", "Points in place, generated here, or of an earlier job."},
+  return {{"description", "Points in place, generated or optimized here, or of an earlier job."},
           {"oneOf",
            {schema_reference("Points"), inline_set, only("generate", schema_reference("PointsToGenerate")),
+            only("optimize", schema_reference("PointsToOptimize")),
             only("job", typed("string", "id of a job"))}}};
 }
 
@@ -144,13 +145,91 @@ void add_results(ordered_json& schemas) {
       {"description",
        "[sweep, beta, r_c, r_f], from the input (sweep 0; with its holes filled if `enrich` is set) on"},
       {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
-  ordered_json analyze = common_result();
-  for (const Measure& measure : measures()) analyze[measure.name] = measure.schema();
   schemas["GenerateResult"] = object(generate, {"n", "method", "parameters", "version", "domain", "points"});
   schemas["OptimizeResult"] =
       object(optimize, {"n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_upper", "r_f_lower",
                         "r_c_upper", "sweeps", "converged", "history", "version", "domain", "points"});
-  schemas["AnalyzeResult"] = object(analyze, {"n", "version", "domain"});
+}
+
+/// Of one set or the average over several; `version` is said once for all that is compared.
+ordered_json group_result() {
+  ordered_json group = common_result();
+  group["sets"] = typed("integer", "number of point sets, where they are several");
+  group["seed"] = typed("integer", "of the first set, where they were generated");
+  group["optimized"] = {{"type", "array"},
+                        {"description", "what the optimizer said of each set that came out of one"},
+                        {"items", {{"type", "object"}}}};
+  for (const Measure& measure : measures()) group[measure.name] = measure.schema();
+  return group;
+}
+
+void add_analysis(ordered_json& schemas) {
+  ordered_json compared = group_result();
+  compared["label"] = typed("string", "as asked for");
+  compared.erase("version");
+  schemas["ComparedResult"] = object(compared, {"label", "n", "domain"});
+  ordered_json result = group_result();
+  result["compare"] = {{"type", "array"},
+                       {"description",
+                        "what was compared, in the order of the request; then nothing else is here "
+                        "but version"},
+                       {"items", schema_reference("ComparedResult")}};
+  schemas["AnalyzeResult"] = object(result, {"version"});
+}
+
+/// "spacing" or {"measure": "spectrum", "range": 2.5}
+ordered_json measures_schema() {
+  ordered_json names = ordered_json::array(), choices = ordered_json::array();
+  for (const Measure& m : measures()) names.push_back(m.name);
+  choices.push_back({{"type", "string"}, {"enum", names}});
+  for (const Measure& m : measures()) {
+    ordered_json properties = {{"measure", {{"type", "string"}, {"enum", {m.name}}}}};
+    for (const Parameter& p : m.parameters) properties[p.name] = parameter_schema(p);
+    choices.push_back(closed(object(std::move(properties), {"measure"})));
+    choices.back()["title"] = m.title;
+    choices.back()["description"] = m.description;
+  }
+  return {{"type", "array"},
+          {"description", "each a name, or an object with its parameters"},
+          {"items", {{"oneOf", choices}}},
+          {"minItems", 1},
+          {"default", {measures().front().name}}};
+}
+
+/// The fields that say which sets are averaged over.
+ordered_json group_schema() {
+  return {{"points", schema_reference("PointSource")},
+          {"seeds",
+           {{"type", "integer"},
+            {"minimum", 1},
+            {"maximum", 1000},
+            {"default", 1},
+            {"description", "as many sets, of the seed of points and the ones after it"}}},
+          {"sets",
+           {{"type", "array"},
+            {"description", "instead of points: sets of one size and domain to average over"},
+            {"items", schema_reference("PointSource")},
+            {"minItems", 1},
+            {"maxItems", 1000}}},
+          {"domain", schema_reference("Domain")}};
+}
+
+void add_analyze_request(ordered_json& schemas) {
+  ordered_json compared = group_schema();
+  compared["label"] = {{"type", "string"}, {"maxLength", 60}, {"description", "for pictures"}};
+  schemas["Compared"] = closed(object(compared));
+  ordered_json request = group_schema();
+  request["compare"] = {
+      {"type", "array"},
+      {"description", "instead of points or sets: several of them, measured each on its own"},
+      {"items", schema_reference("Compared")},
+      {"minItems", 1},
+      {"maxItems", 16}};
+  request["measures"] = measures_schema();
+  request["picture"] = picture_schema();
+  schemas["AnalyzeRequest"] = closed(object(request));
+  schemas["AnalyzeRequest"]["oneOf"] = {
+      {{"required", {"points"}}}, {{"required", {"sets"}}}, {{"required", {"compare"}}}};
 }
 
 ordered_json job_schema() {
@@ -219,19 +298,14 @@ ordered_json openapi_schemas() {
   schemas["PointSource"] = source_schema();
   const ordered_json worked_on = {{"points", schema_reference("PointSource")},
                                   {"domain", schema_reference("Domain")},
-                                  {"picture", picture_schema()}};
+                                  {"enrich", enrich_schema()}};
+  add_methods(schemas, "PointsToOptimize", optimizers(), worked_on);
   ordered_json optimize = worked_on;
-  optimize["enrich"] = enrich_schema();
+  optimize["picture"] = picture_schema();
   add_methods(schemas, "OptimizeRequest", optimizers(), optimize);
-  ordered_json names = ordered_json::array();
-  for (const Measure& m : measures()) names.push_back(m.name);
-  ordered_json analyze = worked_on;
-  analyze["measures"] = {{"type", "array"},
-                         {"items", {{"type", "string"}, {"enum", names}}},
-                         {"minItems", 1},
-                         {"default", {measures().front().name}}};
-  schemas["AnalyzeRequest"] = closed(object(analyze, {"points"}));
+  add_analyze_request(schemas);
   add_results(schemas);
+  add_analysis(schemas);
   schemas["Job"] = job_schema();
   schemas["JobList"] = object({{"jobs", {{"type", "array"}, {"items", schema_reference("Job")}}}}, {"jobs"});
   schemas["Problem"] = problem_schema();

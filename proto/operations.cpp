@@ -1,6 +1,6 @@
 #include "proto/operations.h"
 
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 #include "proto/result.h"
 
 namespace wellspaced {
@@ -33,12 +33,11 @@ ordered_json methods_json(std::span<const Row> rows) {
 
 ordered_json measures_json() {
   ordered_json out = ordered_json::array();
-  for (const Measure& m : measures())
-    out.push_back({{"name", m.name},
-                   {"title", m.title},
-                   {"description", m.description},
-                   {"reference", m.reference},
-                   {"result", m.schema()}});
+  for (const Measure& m : measures()) {
+    ordered_json row = method_json(m);
+    row["result"] = m.schema();
+    out.push_back(std::move(row));
+  }
   return out;
 }
 

@@ -3,48 +3,59 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "core/point_set.h"
 #include "core/registry.h"
+#include "proto/document.h"
 #include "proto/limits.h"
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 
 namespace wellspaced {
-
-/// A request as it comes: body, its media type, and the decoded query.
-struct RawRequest {
-  std::string_view operation;     ///< "generate", "optimize", "analyze"
-  std::string_view content_type;  ///< media type, parameters allowed: "application/json; charset=utf-8"
-  std::string_view body;
-  std::vector<std::pair<std::string, std::string>>
-      query;  ///< without format and picture, which only concern the answer
-};
 
 struct GenerateRequest {
   std::shared_ptr<const Domain> domain;
   const Generator* method = nullptr;
   Arguments arguments;
   std::uint64_t seed = 0;
+  std::string pointer;  ///< where it stands in its request: "" or "/points/generate"
 };
 
+struct OptimizeRequest;
+
 /// Where an operation takes its points from.
-using PointSource = std::variant<GenerateRequest, PointSet>;
+struct PointSource {
+  std::variant<GenerateRequest, std::shared_ptr<const OptimizeRequest>, PointSet> from;
+  std::string pointer;  ///< where it stands in its request: "/points", "/sets/3"
+};
 
 struct OptimizeRequest {
   PointSource points;
   const Optimizer* method = nullptr;
   Arguments arguments;
   bool enrich = false;  ///< fill the holes of the points first
+  std::string pointer;  ///< where it stands in its request: "" or "/points/optimize"
+};
+
+/// Point sets of one process, of one size and on one domain, over which measures are averaged.
+struct SourceGroup {
+  std::string label;  ///< for pictures; may be empty
+  std::vector<PointSource> sets;
+  std::string pointer;  ///< where they stand in their request: "/points", "/sets"
+};
+
+struct MeasureCall {
+  const Measure* measure = nullptr;
+  Arguments arguments;
+  std::string pointer;  ///< where it stands in its request: "/measures/0"
 };
 
 struct AnalyzeRequest {
-  PointSource points;
-  std::vector<const Measure*> measures;
+  std::vector<SourceGroup> groups;  ///< one, unless they are to be compared
+  bool compares = false;
+  std::vector<MeasureCall> measures;
 };
 
 struct Request {
@@ -65,6 +76,10 @@ Request read_request(const RawRequest& raw, const Limits& limits, const JobPoint
 
 /// How many points the request works on, about; the most that there can be where holes are filled.
 double expected_points(const Request& request);
+double expected_points(const PointSource& source);
+
+/// Where the points of a source will live.
+const Domain& domain_of(const PointSource& source);
 
 /// The most it will take, about. Errors of require_affordable: too_large if that is above
 /// limits.memory_bytes.

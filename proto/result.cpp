@@ -3,6 +3,8 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <memory>
+#include <utility>
 
 #include "core/render/svg.h"
 #include "proto/json_writer.h"
@@ -24,8 +26,8 @@ std::string write_json(const Result& result) {
   if (result.operation == "analyze") return text + "\n";
   text.pop_back();
   text += ",\"points\":";
-  text += rows_to_json(result.points.coordinates.data(), result.points.size(),
-                       static_cast<std::size_t>(result.points.domain->dimension()));
+  text += rows_to_json(result.points().coordinates.data(), result.points().size(),
+                       static_cast<std::size_t>(result.points().domain->dimension()));
   return text + "}\n";
 }
 
@@ -39,60 +41,104 @@ std::string summary_line(const Result& result) {
 
 Error unreadable() { return {ErrorCode::internal, "a kept result can't be read"}; }
 
-/// All of a kept result but its coordinates.
-Result load_head(std::string_view line) {
-  try {
-    const ordered_json head = ordered_json::parse(line);
-    return {head.at("operation"),
-            head.at("summary"),
-            {read_domain(nlohmann::json(head.at("domain")), ""), {}},
-            head.at("picture")};
-  } catch (const ordered_json::exception&) {
-    throw unreadable();
-  } catch (const Error&) {
-    throw unreadable();
+/// Takes the coordinates of `sizes` sets from the front of `data`.
+std::vector<PointSet> load_sets(const std::shared_ptr<const Domain>& domain, const ordered_json& sizes,
+                                std::string_view& data) {
+  std::vector<PointSet> sets;
+  for (const ordered_json& size : sizes) {
+    PointSet set{domain, {}};
+    const auto numbers = size.get<std::size_t>() * static_cast<std::size_t>(domain->dimension());
+    if (data.size() / sizeof(double) < numbers) throw unreadable();
+    set.coordinates.resize(numbers);
+    if (numbers != 0) std::memcpy(set.coordinates.data(), data.data(), numbers * sizeof(double));
+    data.remove_prefix(numbers * sizeof(double));
+    sets.push_back(std::move(set));
   }
+  if (sets.empty()) throw unreadable();
+  return sets;
+}
+
+/// The groups that a head tells of. Version 0.1 knew only one set, and told of it without its size.
+ordered_json groups_of(const ordered_json& head, std::string_view data) {
+  if (head.contains("groups")) return head.at("groups");
+  const std::size_t size = data.size() / (2 * sizeof(double));
+  return {{{"label", ""}, {"domain", head.at("domain")}, {"sizes", {size}}}};
+}
+
+Result load(const ordered_json& head, std::string_view data) {
+  Result result{head.at("operation"), head.at("summary"), {}, head.at("picture")};
+  for (const ordered_json& group : groups_of(head, data)) {
+    const auto domain = read_domain(nlohmann::json(group.at("domain")), "");
+    result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data)});
+  }
+  if (result.groups.empty() || !data.empty()) throw unreadable();
+  return result;
 }
 
 std::string write_svg(const Result& result, std::string_view picture, const Limits& limits,
                       const Control& control) {
-  if (result.points.size() > limits.picture_points)
+  if (result.points().size() > limits.picture_points)
     throw Error(ErrorCode::too_large,
-                "a picture of " + std::to_string(result.points.size()) + " points is above the limit of " +
+                "a picture of " + std::to_string(result.points().size()) + " points is above the limit of " +
                     std::to_string(limits.picture_points) + "; ask for the points and draw a part of them");
   std::string_view name = picture.empty() ? std::string_view(result.picture) : picture;
   SvgOptions options;
   if (name == "delaunay") options.picture = Picture::delaunay;
   if (name == "points") options.picture = Picture::points;
-  return render_svg(result.points, options, control);
+  return render_svg(result.points(), options, control);
 }
 
 }  // namespace
 
 std::string_view version() { return WELLSPACED_VERSION; }
 
+std::vector<ResultGroup> one_group(PointSet points) {
+  std::vector<ResultGroup> groups(1);
+  groups[0].sets.push_back(std::move(points));
+  return groups;
+}
+
+const PointSet& only_points(const Result& result) {
+  if (result.groups.size() == 1 && result.groups.front().sets.size() == 1) return result.points();
+  throw Error(ErrorCode::invalid_parameters,
+              "that job looked at several point sets; name the job that made the one you mean");
+}
+
 std::string store_result(const Result& result) {
-  const ordered_json head = {{"operation", result.operation},
-                             {"picture", result.picture},
-                             {"domain", domain_to_json(*result.points.domain)},
-                             {"summary", result.summary}};
+  ordered_json head = {{"operation", result.operation},
+                       {"picture", result.picture},
+                       {"summary", result.summary},
+                       {"groups", ordered_json::array()}};
+  std::size_t numbers = 0;
+  for (const ResultGroup& group : result.groups) {
+    ordered_json sizes = ordered_json::array();
+    for (const PointSet& set : group.sets) {
+      sizes.push_back(set.size());
+      numbers += set.coordinates.size();
+    }
+    head["groups"].push_back({{"label", group.label},
+                              {"domain", domain_to_json(*group.sets.front().domain)},
+                              {"sizes", std::move(sizes)}});
+  }
   std::string bytes = dump(head) + "\n";
-  const std::size_t at = bytes.size(), size = result.points.coordinates.size() * sizeof(double);
-  bytes.resize(at + size);
-  if (size != 0) std::memcpy(bytes.data() + at, result.points.coordinates.data(), size);
+  bytes.reserve(bytes.size() + numbers * sizeof(double));
+  for (const ResultGroup& group : result.groups)
+    for (const PointSet& set : group.sets)
+      bytes.append(reinterpret_cast<const char*>(set.coordinates.data()),
+                   set.coordinates.size() * sizeof(double));
   return bytes;
 }
 
 Result load_result(std::string_view bytes) {
   const auto line = bytes.find('\n');
   if (line == std::string_view::npos) throw unreadable();
-  Result result = load_head(bytes.substr(0, line));
-  const std::string_view data = bytes.substr(line + 1);
-  if (data.size() % (static_cast<std::size_t>(result.points.domain->dimension()) * sizeof(double)) != 0)
+  try {
+    return load(ordered_json::parse(bytes.substr(0, line)), bytes.substr(line + 1));
+  } catch (const ordered_json::exception&) {
     throw unreadable();
-  result.points.coordinates.resize(data.size() / sizeof(double));
-  if (!data.empty()) std::memcpy(result.points.coordinates.data(), data.data(), data.size());
-  return result;
+  } catch (const Error&) {
+    throw unreadable();
+  }
 }
 
 std::span<const Format> formats_of(std::string_view operation) {
@@ -106,17 +152,17 @@ Encoded encode_result(const Result& result, Format format, std::string_view pict
   Encoded out;
   out.media_type = media_type_of(format);
   out.file_name = "wellspaced-" + result.operation + "." + std::string(name_of(format));
-  const double* values = result.points.coordinates.data();
-  const auto columns = static_cast<std::size_t>(result.points.domain->dimension());
+  const double* values = result.points().coordinates.data();
+  const auto columns = static_cast<std::size_t>(result.points().domain->dimension());
   switch (format) {
     case Format::json:
       out.bytes = write_json(result);
       return out;
     case Format::npy:
-      out.bytes = write_npy(values, result.points.size(), columns);
+      out.bytes = write_npy(values, result.points().size(), columns);
       break;
     case Format::csv:
-      out.bytes = write_csv(values, result.points.size(), columns);
+      out.bytes = write_csv(values, result.points().size(), columns);
       break;
     case Format::svg:
       out.bytes = write_svg(result, picture, limits, control);

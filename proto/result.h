@@ -15,14 +15,29 @@
 
 namespace wellspaced {
 
+/// Point sets that were averaged over, or a single one.
+struct ResultGroup {
+  std::string label;           ///< for pictures; may be empty
+  std::vector<PointSet> sets;  ///< at least one, on one domain
+};
+
 /// What an operation gives: a summary, and the points that it made or looked at.
 struct Result {
   std::string operation;
   nlohmann::ordered_json
       summary;  ///< as users see it, all but the points; nothing in it depends on time, job or machine
-  PointSet points;
-  std::string picture;  ///< that the request asked for, or empty
+  std::vector<ResultGroup> groups;  ///< one, unless several were compared
+  std::string picture;              ///< that the request asked for, or empty
+
+  /// The first set, of most results the only one.
+  const PointSet& points() const { return groups.front().sets.front(); }
 };
+
+/// The group of a set alone.
+std::vector<ResultGroup> one_group(PointSet points);
+
+/// The one point set of a result, for other work. Errors: invalid_parameters if it has several.
+const PointSet& only_points(const Result& result);
 
 /// What the program's version is; part of every summary.
 std::string_view version();

@@ -23,7 +23,7 @@ Query request_query(const http::Request& request) {
 }
 
 JobPoints points_of_jobs(Context& context) {
-  return [&context](const std::string& id) { return load_result(context.store.result(id)).points; };
+  return [&context](const std::string& id) { return only_points(load_result(context.store.result(id))); };
 }
 
 void require_sync(const Request& request, const Limits& limits) {
@@ -127,7 +127,7 @@ std::string run_job(Context& context, const Claim& claim, Control& control) {
   const Query query = json::parse(claim.spec.query).get<Query>();
   const RawRequest raw{claim.spec.operation, claim.spec.content_type, claim.spec.request, query};
   const Result result = execute(read_request(raw, context.config.limits, points_of_jobs(context)), control);
-  context.metrics.count_points(result.operation == "analyze" ? 0 : result.points.size());
+  context.metrics.count_points(result.operation == "analyze" ? 0 : result.points().size());
   return store_result(result);
 }
 

@@ -30,7 +30,7 @@ TEST(Execute, GenerateTellsWhatItMade) {
   const Result result = run("generate", R"({"count":500,"seed":7,"domain":{"width":2}})");
   EXPECT_EQ(result.operation, "generate");
   EXPECT_THAT(keys(result.summary), ElementsAre("n", "method", "parameters", "seed", "version", "domain"));
-  EXPECT_EQ(result.summary["n"], result.points.size());
+  EXPECT_EQ(result.summary["n"], result.points().size());
   EXPECT_EQ(result.summary["method"], "poisson-disk");
   EXPECT_EQ(result.summary["parameters"].dump(), R"({"count":500})");
   EXPECT_EQ(result.summary["seed"], 7u);
@@ -40,7 +40,7 @@ TEST(Execute, GenerateTellsWhatItMade) {
 
 TEST(Execute, GeneratorsWithoutRandomnessTellNoSeed) {
   const Result result = run("generate", R"({"method":"square","count":100,"seed":7})");
-  EXPECT_EQ(result.points.size(), 100u);
+  EXPECT_EQ(result.points().size(), 100u);
   EXPECT_FALSE(result.summary.contains("seed"));
 }
 
@@ -48,7 +48,7 @@ TEST(Execute, EveryGeneratorMakesWhatItExpects) {
   for (const Generator& generator : generators()) {
     const Result result =
         run("generate", R"({"count":2000,"domain":{"width":2},"method":")" + generator.name + "\"}");
-    EXPECT_EQ(result.points.size(), 2000u) << generator.name;
+    EXPECT_EQ(result.points().size(), 2000u) << generator.name;
     EXPECT_EQ(result.summary["method"], generator.name);
   }
 }
@@ -61,7 +61,7 @@ TEST(Execute, EnrichFillsHolesBeforeItOptimizes) {
   const Result result = run("optimize", points + R"(,"beta":0.9,"max_visits":1,"enrich":true})");
   const std::size_t inserted = result.summary["enriched"];
   EXPECT_GT(inserted, 30u);
-  EXPECT_EQ(result.points.size(), 300 + inserted);
+  EXPECT_EQ(result.points().size(), 300 + inserted);
   EXPECT_EQ(result.summary["n"], 300 + inserted);
   EXPECT_FALSE(result.summary["parameters"].contains("enrich"));
   EXPECT_LE(result.summary["history"][0][2].get<double>(), std::sqrt(0.6966 / 300) * (1 + 1e-9));
@@ -73,7 +73,7 @@ TEST(Execute, EnrichLeavesMaximalSetsAlone) {
     const std::string source = R"({"points":{"generate":{"count":256,"method":")" + method + R"("}})";
     const Result result = run("optimize", source + R"(,"method":"opt-beta","beta":0.9,"enrich":true})");
     EXPECT_EQ(result.summary["enriched"], 0) << method;
-    EXPECT_EQ(result.points.size(), 256u) << method;
+    EXPECT_EQ(result.points().size(), 256u) << method;
   }
 }
 
@@ -83,13 +83,13 @@ TEST(Execute, OptimizeTellsWhatItReached) {
               ElementsAre("n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_i_max",
                           "beta_i_mean", "sweeps", "beta_upper", "r_f_lower", "r_c_upper", "converged",
                           "history", "seed", "version", "domain"));
-  const Spacing spacing = measure_spacing(result.points, Control());
-  EXPECT_EQ(result.summary["n"], result.points.size());
+  const Spacing spacing = measure_spacing(result.points(), Control());
+  EXPECT_EQ(result.summary["n"], result.points().size());
   EXPECT_EQ(result.summary["parameters"].dump(), R"({"beta":0.9,"max_sweeps":20})");
   EXPECT_EQ(result.summary["beta"], spacing.beta);
   EXPECT_EQ(result.summary["r_f"], spacing.r_f);
   EXPECT_EQ(result.summary["r_c"], spacing.r_c);
-  const Certificate proof = certify(result.points, Control()).value();
+  const Certificate proof = certify(result.points(), Control()).value();
   EXPECT_EQ(result.summary["beta_upper"], proof.beta_upper);
   EXPECT_EQ(result.summary["r_f_lower"], proof.r_f_lower);
   EXPECT_EQ(result.summary["r_c_upper"], proof.r_c_upper);
@@ -114,7 +114,7 @@ TEST(Execute, TellsAChoiceByItsName) {
   EXPECT_EQ(fast.summary["parameters"].dump(), R"({"beta":0.8,"randomness":"fast"})");
   EXPECT_EQ(fast.summary["converged"], true);
   EXPECT_EQ(gentle.summary["converged"], true);
-  EXPECT_NE(fast.points.coordinates, gentle.points.coordinates);
+  EXPECT_NE(fast.points().coordinates, gentle.points().coordinates);
 }
 
 TEST(Execute, OptimizeSaysWhenItMissedItsTarget) {
@@ -186,7 +186,7 @@ TEST(Execute, SeesNoDifferenceBetweenGeneratedAndUploadedPoints) {
   const Result chained = run(
       "optimize",
       R"({"points":{"generate":{"count":300,"seed":2}},"method":"opt-beta-local","beta":0.9,"max_sweeps":3})");
-  EXPECT_EQ(uploaded.points.coordinates, chained.points.coordinates);
+  EXPECT_EQ(uploaded.points().coordinates, chained.points().coordinates);
 }
 
 TEST(Execute, PointsToWhatItCouldNotWorkOn) {
@@ -231,6 +231,97 @@ TEST(Execute, StopsWhenItIsCancelled) {
     } catch (const Error& error) {
       EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(ErrorCode::cancelled));
     }
+  }
+}
+
+TEST(Execute, AveragesOverSets) {
+  const std::string points = R"({"points":{"generate":{"count":300,"seed":5}})";
+  const Result both = run("analyze", points + R"(,"seeds":2,"measures":["spacing","certificate"]})");
+  ASSERT_EQ(both.groups.size(), 1u);
+  ASSERT_EQ(both.groups[0].sets.size(), 2u);
+  EXPECT_EQ(both.summary["sets"], 2);
+  EXPECT_EQ(both.summary["n"], 300);
+  EXPECT_EQ(both.summary["seed"], 5);
+  const Result first = run("analyze", points + R"(,"measures":["spacing","certificate"]})");
+  const Result second = run("analyze", R"({"points":{"generate":{"count":300,"seed":6}},
+      "measures":["spacing","certificate"]})");
+  EXPECT_FALSE(first.summary.contains("sets"));
+  EXPECT_EQ(both.summary["spacing"]["by_set"][0], first.summary["spacing"]);
+  EXPECT_EQ(both.summary["spacing"]["by_set"][1], second.summary["spacing"]);
+  EXPECT_DOUBLE_EQ(
+      both.summary["spacing"]["rho"],
+      (first.summary["spacing"]["rho"].get<double>() + second.summary["spacing"]["rho"].get<double>()) / 2);
+  EXPECT_EQ(both.summary["spacing"]["valence"]["6"],
+            first.summary["spacing"]["valence"]["6"].get<int>() +
+                second.summary["spacing"]["valence"]["6"].get<int>());
+  EXPECT_EQ(both.summary["certificate"]["beta_upper"],
+            std::max(first.summary["certificate"]["beta_upper"].get<double>(),
+                     second.summary["certificate"]["beta_upper"].get<double>()));
+}
+
+TEST(Execute, ComparesGroupsEachOnItsOwn) {
+  const Result result = run("analyze", R"({"compare":[
+      {"label":"random","points":{"generate":{"method":"white-noise","count":50}}},
+      {"label":"even","points":{"optimize":{"points":{"generate":{"count":100,"seed":3}},"beta":0.8}}}]})");
+  EXPECT_THAT(keys(result.summary), ElementsAre("compare", "version"));
+  const auto& compared = result.summary["compare"];
+  ASSERT_EQ(compared.size(), 2u);
+  EXPECT_THAT(keys(compared[0]), ElementsAre("label", "n", "spacing", "seed", "domain"));
+  EXPECT_THAT(keys(compared[1]), ElementsAre("label", "n", "spacing", "optimized", "seed", "domain"));
+  const Result optimized = run("optimize", R"({"points":{"generate":{"count":100,"seed":3}},"beta":0.8})");
+  EXPECT_EQ(result.groups[1].sets[0].coordinates, optimized.points().coordinates);
+  EXPECT_EQ(compared[1]["optimized"][0]["history"], optimized.summary["history"]);
+  EXPECT_EQ(compared[1]["spacing"]["beta"], optimized.summary["beta"]);
+  EXPECT_EQ(result.groups[0].label, "random");
+}
+
+TEST(Execute, OptimizersWorkOneAfterTheOther) {
+  const std::string first = R"({"points":{"generate":{"count":100}},"method":"push-pull","max_sweeps":2})";
+  const Result pushed = run("optimize", first);
+  const Result both =
+      run("optimize", R"({"points":{"optimize":)" + first + R"(},"method":"distmesh","max_sweeps":3})");
+  EXPECT_EQ(both.summary["history"][0][1], pushed.summary["beta"]);
+}
+
+TEST(Execute, MeasuresSpectra) {
+  const std::string lattice = R"({"points":{"generate":{"method":"square","count":400}},"measures":[)";
+  const auto spectrum =
+      run("analyze", lattice + R"({"measure":"spectrum","range":2.5}]})").summary["spectrum"];
+  ASSERT_EQ(spectrum["power"].size(), 51u);
+  EXPECT_EQ(spectrum["frequency"][20], 1.0);
+  EXPECT_GT(spectrum["power"][20].get<double>(), 10);
+  EXPECT_NEAR(spectrum["power"][10].get<double>(), 0, 1e-9);
+  EXPECT_TRUE(spectrum["oscillations"].is_null());
+  const auto power =
+      run("analyze", lattice + R"({"measure":"periodogram","range":1}]})").summary["periodogram"]["power"];
+  ASSERT_EQ(power.size(), 21u);
+  ASSERT_EQ(power[0].size(), 41u);
+  EXPECT_NEAR(power[20][40].get<double>(), 400, 1e-6);
+  EXPECT_NEAR(power[20][39].get<double>(), 0, 1e-6);
+  const auto averaged = run("analyze", R"({"points":{"generate":{"method":"white-noise","count":500}},
+      "seeds":8,"measures":["spectrum"]})")
+                            .summary["spectrum"];
+  EXPECT_NEAR(averaged["anisotropy_expected_db"].get<double>(), -9.03, 0.01);
+  EXPECT_NEAR(averaged["anisotropy_mean_db"].get<double>(), -9.03, 0.6);
+  EXPECT_NEAR(averaged["power"][40].get<double>(), 1, 0.2);
+}
+
+TEST(Execute, TellsAtRunTimeWhatOnlyTheWorkShows) {
+  const auto by_radius = [](const std::string& rest) { run("analyze", R"({"points":{"generate":)" + rest); };
+  try {
+    by_radius(R"({"radius":0.03}},"seeds":5})");
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::invalid_parameters);
+    EXPECT_EQ(error.where(), "/points");
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("generate by count"));
+  }
+  try {
+    by_radius(R"({"radius":0.7}}})");
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::degenerate_input);
+    EXPECT_EQ(error.where(), "/points/generate/radius");
   }
 }
 

@@ -36,6 +36,11 @@ Error error_of(const std::string& text, std::size_t row_limit = 1000) {
   return {ErrorCode::internal, "none"};
 }
 
+const Table& only(const JsonDocument& document) {
+  EXPECT_EQ(document.tables.size(), 1u);
+  return document.tables.at(0).table;
+}
+
 std::string repeat(const std::string& piece, std::size_t count) {
   std::string text;
   for (std::size_t i = 0; i < count; ++i) text += piece;
@@ -60,40 +65,67 @@ TEST(ReadJson, ReadsADocumentWithoutPointsAsTheLibraryDoes) {
   for (const char* text : texts) {
     const JsonDocument document = read(text);
     EXPECT_EQ(document.root, Json::parse(text)) << text;
-    EXPECT_FALSE(document.points) << text;
-    EXPECT_EQ(document.points_pointer, "") << text;
+    EXPECT_TRUE(document.tables.empty()) << text;
   }
 }
 
 TEST(ReadJson, TakesThePointsOutOfTheTree) {
   const JsonDocument document = read(R"({"a": 1, "points": [[0.5, 1], [-2, 3e-1]], "b": [2]})");
   EXPECT_EQ(document.root, Json::parse(R"({"a": 1, "points": [], "b": [2]})"));
-  EXPECT_EQ(document.points_pointer, "/points");
-  ASSERT_TRUE(document.points);
-  EXPECT_EQ(document.points->rows, 2u);
-  EXPECT_EQ(document.points->columns, 2u);
-  EXPECT_THAT(document.points->values, ElementsAre(0.5, 1, -2, 0.3));
+  ASSERT_EQ(document.tables.size(), 1u);
+  EXPECT_EQ(document.tables[0].pointer, "/points");
+  EXPECT_EQ(only(document).rows, 2u);
+  EXPECT_EQ(only(document).columns, 2u);
+  EXPECT_THAT(only(document).values, ElementsAre(0.5, 1, -2, 0.3));
 }
 
 TEST(ReadJson, FindsPointsAtEveryPointer) {
   const JsonDocument nested = read(R"({"points": {"domain": {}, "points": [[1,2,3],[4,5,6],[7,8,9]]}})");
-  EXPECT_EQ(nested.points_pointer, "/points/points");
+  EXPECT_EQ(nested.tables.at(0).pointer, "/points/points");
   EXPECT_EQ(nested.root, Json::parse(R"({"points": {"domain": {}, "points": []}})"));
-  EXPECT_EQ(nested.points->columns, 3u);
-  EXPECT_THAT(nested.points->values, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_EQ(only(nested).columns, 3u);
+  EXPECT_THAT(only(nested).values, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
 
   const std::array<std::string_view, 1> root = {""};
   const JsonDocument bare = read_json("[[1,2],[3,4]]", root, 10);
   EXPECT_EQ(bare.root, Json::array());
-  EXPECT_THAT(bare.points->values, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(only(bare).values, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(ReadJson, FindsSeveralListsByPlaceholders) {
+  constexpr std::array<std::string_view, 2> places = {"/**/points", "/sets/*"};
+  const JsonDocument document = read_json(
+      R"({"sets": [[[1,2]], {"points": [[3,4,5]]}, 7], "a": {"points": [], "sets": [[6]]}})", places, 3);
+  EXPECT_EQ(document.root,
+            Json::parse(R"({"sets": [[], {"points": []}, 7], "a": {"points": [], "sets": [[6]]}})"));
+  ASSERT_EQ(document.tables.size(), 3u);
+  EXPECT_EQ(document.tables[0].pointer, "/sets/0");
+  EXPECT_THAT(document.tables[0].table.values, ElementsAre(1, 2));
+  EXPECT_EQ(document.tables[1].pointer, "/sets/1/points");
+  EXPECT_THAT(document.tables[1].table.values, ElementsAre(3, 4, 5));
+  EXPECT_EQ(document.tables[2].pointer, "/a/points");
+  EXPECT_EQ(document.tables[2].table.rows, 0u);
+}
+
+TEST(ReadJson, CountsTheRowsOfAllLists) {
+  constexpr std::array<std::string_view, 1> places = {"/**/points"};
+  const std::string text = R"({"points": [[1,2],[3,4]], "a": {"points": [[5,6],[7,8]]}})";
+  EXPECT_EQ(read_json(text, places, 4).tables.size(), 2u);
+  try {
+    read_json(text, places, 3);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::too_large);
+    EXPECT_EQ(error.where(), "/a/points");
+  }
 }
 
 TEST(ReadJson, ReadsAnEmptyListAsNoPoints) {
   const JsonDocument document = read(R"({"points": [ ]})", 0);
-  ASSERT_TRUE(document.points);
-  EXPECT_EQ(document.points->rows, 0u);
-  EXPECT_EQ(document.points->columns, 0u);
-  EXPECT_EQ(document.points_pointer, "/points");
+  ASSERT_EQ(document.tables.size(), 1u);
+  EXPECT_EQ(only(document).rows, 0u);
+  EXPECT_EQ(only(document).columns, 0u);
+  EXPECT_EQ(document.tables.at(0).pointer, "/points");
 }
 
 // The reader passes plain rows by the library's lexer: both ways must agree, whichever row is plain.
@@ -127,8 +159,8 @@ TEST(ReadJson, ReadsEveryNumberAsTheLibraryDoesWhereverItStands) {
       text += row == 1 ? "[" + number + "," + number + "]" : "[ " + number + "\t,\r\n" + number + " ]";
     }
     const JsonDocument document = read(text + "]}", 4);
-    ASSERT_EQ(document.points->values.size(), 8u) << number;
-    for (const double value : document.points->values) {
+    ASSERT_EQ(only(document).values.size(), 8u) << number;
+    for (const double value : only(document).values) {
       EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << number;
     }
   }
@@ -161,7 +193,6 @@ TEST(ReadJson, RefusesWhatIsNotAListOfPoints) {
       {R"({"points": [[1,2,3],[1,2]]})", "/points/1", "2 coordinates, the ones before have 3"},
       {"{\"points\":{\"points\":[" + repeat(plain, 100) + "[0,false]]}}", "/points/points/200/1",
        "found a boolean"},
-      {R"({"points": [[0,0]], "other": [[0,0]]})", "/other", "the first is at /points"},
   };
   for (const Refused& refused : cases) {
     const Error error = error_of(refused.text);
@@ -298,11 +329,11 @@ TEST(ReadJson, LimitsTheNumberOfValuesButNotOfPoints) {
   EXPECT_EQ(error.where(), "/a/99998");
   EXPECT_THAT(error.what(), HasSubstr("100000"));
   const JsonDocument document = read("{\"points\":[[0,0]" + repeat(",[0,0]", 199'999) + "]}", 200'000);
-  EXPECT_EQ(document.points->rows, 200'000u);
+  EXPECT_EQ(only(document).rows, 200'000u);
 }
 
 TEST(ReadJson, RefusesMorePointsThanAllowed) {
-  EXPECT_EQ(read(R"({"points": [[1,2],[3,4],[5,6]]})", 3).points->rows, 3u);
+  EXPECT_EQ(read(R"({"points": [[1,2],[3,4],[5,6]]})", 3).tables[0].table.rows, 3u);
   for (const std::size_t limit : {0u, 1u, 2u}) {
     const Error error = error_of(R"({"points": [[1,2],[3,4],[5,6]]})", limit);
     EXPECT_EQ(error.code(), ErrorCode::too_large) << limit;
@@ -349,9 +380,9 @@ TEST(JsonWriter, WritesWhatTheReaderReads) {
     const std::size_t rows = values.size() / columns;
     const JsonDocument document =
         read("{\"points\":" + rows_to_json(values.data(), rows, columns) + "}", rows);
-    ASSERT_EQ(document.points->values.size(), values.size());
+    ASSERT_EQ(only(document).values.size(), values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(document.points->values[i]),
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(only(document).values[i]),
                 std::bit_cast<std::uint64_t>(values[i]));
     }
   }

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 #include "proto/operations.h"
 #include "proto/result.h"
 
@@ -72,7 +72,9 @@ TEST(Openapi, RequiresPointsWhereTheyAreWorkedOn) {
   const auto points = ::testing::Contains(ordered_json("points"));
   for (const Optimizer& method : optimizers())
     EXPECT_THAT(schema_of_method("OptimizeRequest", method.name)["required"], points);
-  EXPECT_THAT(schema("AnalyzeRequest")["required"], points);
+  std::vector<std::string> sources;
+  for (const auto& one : schema("AnalyzeRequest")["oneOf"]) sources.push_back(one["required"][0]);
+  EXPECT_THAT(sources, ::testing::ElementsAre("points", "sets", "compare"));
 }
 
 TEST(Openapi, ListsTheQueryOfRequestsWhosePointsAreNotJson) {
@@ -100,8 +102,17 @@ TEST(Openapi, OffersEveryFormatOfEveryOperation) {
 TEST(Openapi, DescribesEveryMeasure) {
   for (const Measure& measure : measures()) {
     EXPECT_EQ(schema("AnalyzeResult")["properties"][measure.name], measure.schema());
-    EXPECT_THAT(schema("AnalyzeRequest")["properties"]["measures"]["items"]["enum"],
-                ::testing::Contains(ordered_json(measure.name)));
+    EXPECT_EQ(schema("ComparedResult")["properties"][measure.name], measure.schema());
+    const ordered_json choices = schema("AnalyzeRequest")["properties"]["measures"]["items"]["oneOf"];
+    EXPECT_THAT(choices[0]["enum"], ::testing::Contains(ordered_json(measure.name)));
+    const auto own = std::find_if(choices.begin() + 1, choices.end(), [&](const ordered_json& choice) {
+      return choice["properties"]["measure"]["enum"][0] == measure.name;
+    });
+    ASSERT_NE(own, choices.end()) << measure.name;
+    for (const Parameter& p : measure.parameters) {
+      EXPECT_EQ((*own)["properties"][p.name], parameter_schema(p));
+      EXPECT_EQ(query_names("/v1/analyze").count(measure.name + "." + p.name), 1u);
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "proto/measures.h"
+#include "proto/measures/measures.h"
 #include "proto/result.h"
 
 namespace wellspaced {

@@ -42,11 +42,11 @@ TEST(StoreResult, IsUndoneByLoadResult) {
     EXPECT_EQ(back.operation, result.operation);
     EXPECT_EQ(back.picture, result.picture);
     EXPECT_EQ(back.summary.dump(), result.summary.dump());
-    EXPECT_EQ(back.points.coordinates, result.points.coordinates);
-    EXPECT_EQ(back.points.domain->box().size, result.points.domain->box().size);
+    EXPECT_EQ(back.points().coordinates, result.points().coordinates);
+    EXPECT_EQ(back.points().domain->box().size, result.points().domain->box().size);
     EXPECT_TRUE(store_result(back) == bytes);
     for (const Format format : formats_of(result.operation)) {
-      if (format == Format::svg && result.points.size() < 3) continue;
+      if (format == Format::svg && result.points().size() < 3) continue;
       EXPECT_TRUE(encoded(back, format).bytes == encoded(result, format).bytes) << name_of(format);
     }
   }
@@ -81,14 +81,14 @@ TEST(LoadResult, RefusesOtherBytes) {
 
 TEST(EncodeResult, WritesPointsThatReadBackBitForBit) {
   for (const Result& result : some_results()) {
-    const auto rows = result.points.size();
+    const auto rows = result.points().size();
     if (result.operation != "analyze") {
-      EXPECT_EQ(read_npy(encoded(result, Format::npy).bytes, rows).values, result.points.coordinates);
-      EXPECT_EQ(read_csv(encoded(result, Format::csv).bytes, rows).values, result.points.coordinates);
+      EXPECT_EQ(read_npy(encoded(result, Format::npy).bytes, rows).values, result.points().coordinates);
+      EXPECT_EQ(read_csv(encoded(result, Format::csv).bytes, rows).values, result.points().coordinates);
       constexpr std::array<std::string_view, 1> tables = {"/points"};
       const JsonDocument document = read_json(encoded(result, Format::json).bytes, tables, rows);
-      ASSERT_TRUE(document.points.has_value());
-      EXPECT_EQ(document.points->values, result.points.coordinates);
+      ASSERT_EQ(document.tables.size(), 1u);
+      EXPECT_EQ(document.tables[0].table.values, result.points().coordinates);
     }
   }
 }
@@ -109,7 +109,7 @@ TEST(EncodeResult, WritesTheWholeSummaryAsJson) {
 TEST(EncodeResult, SummarizesInOneLineOfPrintableAsciiWithoutArrays) {
   for (const Result& result : some_results())
     for (const Format format : formats_of(result.operation)) {
-      if (format == Format::json || (format == Format::svg && result.points.size() < 3)) continue;
+      if (format == Format::json || (format == Format::svg && result.points().size() < 3)) continue;
       const std::string line = encoded(result, format).summary_line;
       for (const char c : line) EXPECT_TRUE(c >= 0x20 && c < 0x7f) << static_cast<int>(c);
       EXPECT_LT(line.size(), 4000u);

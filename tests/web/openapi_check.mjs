@@ -37,7 +37,10 @@ const more = {
              { points: { generate }, method: "push-pull", rho: 0.8, coverage: 0.7, max_sweeps: 20 }, { points: { generate }, method: "cvt", variant: "lloyd", max_sweeps: 3 },
              { points: { generate }, method: "distmesh", max_sweeps: 3 }, { points: { generate }, method: "far-point", max_sweeps: 2 }],
   analyze: [{ points: { generate }, measures: ["spacing"] }, { points: [[0, 0], [1.5, 0.1], [0.2, 0.7]], domain: { width: 2 } },
-            { points: { points: [[0, 0], [1.5, 0.1], [0.2, 0.7]], domain: { width: 2 } } }],
+            { points: { points: [[0, 0], [1.5, 0.1], [0.2, 0.7]], domain: { width: 2 } } },
+            { points: { generate }, seeds: 3, measures: document.components.schemas.AnalyzeRequest.properties.measures.items.oneOf[0].enum },
+            { sets: [[[0, 0], [1.5, 0.1], [0.2, 0.7]], { generate: { count: 3, domain: { width: 2 } } }], domain: { width: 2 }, measures: [{ measure: "spectrum", range: 3 }] },
+            { compare: [{ label: "a", points: { generate } }, { points: { optimize: { points: { generate }, beta: 0.8 } }, seeds: 2 }] }],
 };
 const refused = {
   generate: [{}, { count: 0 }, { count: 10, radius: 0.1 }, { method: "dart", count: 9 }, { method: "square", radius: 0.1 },
@@ -45,7 +48,9 @@ const refused = {
              { count: 10, sed: 1 }, { count: 10, domain: { width: 0 } }, { count: 10, seed: -1 }],
   optimize: [{}, { points: { generate }, beta: 0.5 }, { points: { generate }, beta: 1 }, { points: { generate, job: "x" } },
              { points: { generate }, method: "opt-beta-local", max_sweeps: 0 }, { points: { generate }, method: "opt-beta", randomness: "wild" }, { points: { generate }, enrich: 1 }, { points: [[0, 0], [0.5], [0.2, 0.7]] }],
-  analyze: [{}, { points: { generate }, measures: [] }, { points: { generate }, measures: ["taste"] }, { points: 3 }],
+  analyze: [{}, { points: { generate }, measures: [] }, { points: { generate }, measures: ["taste"] }, { points: 3 },
+            { points: { generate }, sets: [] }, { sets: [] }, { compare: [] }, { points: { generate }, seeds: 0 },
+            { points: { generate }, measures: [{ measure: "spectrum", range: 0 }] }],
 };
 for (const operation of Object.keys(more)) {
   const name = operation[0].toUpperCase() + operation.slice(1);

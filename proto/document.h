@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "proto/json_reader.h"
+#include "proto/limits.h"
+
+namespace wellspaced {
+
+/// A request as it comes: body, its media type, and the decoded query.
+struct RawRequest {
+  std::string_view operation;     ///< "generate", "optimize", "analyze"
+  std::string_view content_type;  ///< media type, parameters allowed: "application/json; charset=utf-8"
+  std::string_view body;
+  std::vector<std::pair<std::string, std::string>>
+      query;  ///< without format and picture, which only concern the answer
+};
+
+/// A request after its bytes are understood, as one JSON object: parameters of a query are where a JSON body
+/// would have them ("domain.width" is width in domain, "spectrum.range" the range of the measure spectrum).
+/// Lists of points are apart, in `tables`; those of a body that isn't JSON at /points.
+///
+/// Errors: unsupported_media_type; malformed_request; invalid_parameters and too_large with the pointer of
+/// the field.
+JsonDocument read_document(const RawRequest& raw, const Limits& limits);
+
+/// How many points that operation may look at.
+std::uint64_t point_limit(std::string_view operation, const Limits& limits);
+
+}  // namespace wellspaced

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/generate/enrich.h"
+#include "core/generate/generate.h"
+#include "proto/fields.h"
+#include "proto/request.h"
+
+namespace wellspaced {
+namespace {
+
+Cost times(double n, Cost cost) { return {n * cost.seconds, n * cost.bytes}; }
+/// One after the other: what the first one needed is free again.
+Cost operator+(Cost a, Cost b) { return {a.seconds + b.seconds, std::max(a.bytes, b.bytes)}; }
+
+constexpr Cost writing = {3e-7, 200};    // a point of the result, as text at worst
+constexpr Cost enriching = {8e-6, 300};  // a point that there is in the end
+constexpr double bytes_kept = 16;        // a point that waits for others
+
+double expected(const GenerateRequest& request) {
+  return request.method->expected_count(*request.domain, request.arguments);
+}
+
+double expected(const OptimizeRequest& request) {
+  const double n = expected_points(request.points);
+  if (!request.enrich) return n;
+  const Domain& domain = domain_of(request.points);
+  return n + most_inserted(domain, radius_for_count(domain, std::max(1.0, n)));
+}
+
+Cost cost_of(const GenerateRequest& request) {
+  return times(expected(request), request.method->cost_a_point);
+}
+
+Cost cost_of(const PointSource& source);
+
+Cost cost_of(const OptimizeRequest& request) {
+  const double n = expected(request);
+  return cost_of(request.points) + times(request.enrich ? n : 0, enriching) +
+         times(n, request.method->cost_a_point(request.arguments));
+}
+
+Cost cost_of(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from)) return cost_of(*generated);
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return cost_of(**optimized);
+  return times(expected_points(source), {0, 32});
+}
+
+MeasureSize size_of(const SourceGroup& group) {
+  double n = 0;
+  for (const PointSource& set : group.sets) n = std::max(n, expected_points(set));
+  const Vec3 sides = domain_of(group.sets.front()).box().size;
+  return {n, static_cast<double>(group.sets.size()), std::max(sides.x / sides.y, sides.y / sides.x)};
+}
+
+Cost cost_of(const AnalyzeRequest& request) {
+  Cost cost;
+  double kept = 0;
+  for (const SourceGroup& group : request.groups) {
+    for (const PointSource& set : group.sets) {
+      cost = cost + cost_of(set);
+      kept += bytes_kept * expected_points(set);
+    }
+    for (const MeasureCall& call : request.measures)
+      cost = cost + call.measure->cost(size_of(group), call.arguments);
+  }
+  return {cost.seconds, cost.bytes + kept};
+}
+
+std::string mebibytes(double bytes) {
+  return bytes < 0x1p70 ? std::to_string(static_cast<std::uint64_t>(bytes / 0x1p20)) + " MiB"
+                        : "countless bytes";
+}
+
+/// A measure that asks for too much by its parameters is to blame before the points are.
+void require_affordable_measures(const AnalyzeRequest& request, const Limits& limits) {
+  const auto limit = static_cast<double>(limits.memory_bytes);
+  for (const SourceGroup& group : request.groups)
+    for (const MeasureCall& call : request.measures) {
+      const MeasureSize size = size_of(group);
+      if (call.measure->cost(size, call.arguments).bytes <= limit) continue;
+      for (const Parameter& p : call.measure->parameters) {
+        const auto fits = [&](double value) {
+          Arguments smaller = call.arguments;
+          smaller[p.name] = value;
+          return call.measure->cost(size, smaller).bytes <= limit;
+        };
+        if (p.type == Parameter::Type::choice || !fits(p.minimum)) continue;
+        double low = p.minimum, high = argument(call.arguments, p.name).value_or(p.maximum);
+        for (int step = 0; step < 60; ++step) ((fits((low + high) / 2)) ? low : high) = (low + high) / 2;
+        throw Error(ErrorCode::too_large,
+                    call.measure->name + " of so many points would need about " +
+                        mebibytes(call.measure->cost(size, call.arguments).bytes) +
+                        ", but the limit here is " + mebibytes(limit) + "; ask for a " + p.name +
+                        " of at most " +
+                        number_text(p.type == Parameter::Type::integer ? std::floor(low)
+                                                                       : std::floor(low * 100) / 100),
+                    call.pointer + "/" + p.name);
+      }
+    }
+}
+
+/// The field that says how many points there are.
+std::string size_field(const Request& request) {
+  if (const auto* generate = std::get_if<GenerateRequest>(&request.operation))
+    return argument(generate->arguments, "count") ? "/count" : "/radius";
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation))
+    return analyze->groups.back().pointer;
+  return "/points";
+}
+
+}  // namespace
+
+double expected_points(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from)) return expected(*generated);
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return expected(**optimized);
+  return static_cast<double>(std::get<PointSet>(source.from).size());
+}
+
+double expected_points(const Request& request) {
+  if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation)) return expected(*optimize);
+  if (const auto* generate = std::get_if<GenerateRequest>(&request.operation)) return expected(*generate);
+  double most = 0;
+  for (const SourceGroup& group : std::get<AnalyzeRequest>(request.operation).groups)
+    most = std::max(most, size_of(group).n);
+  return most;
+}
+
+const Domain& domain_of(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from)) return *generated->domain;
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return domain_of((*optimized)->points);
+  return *std::get<PointSet>(source.from).domain;
+}
+
+Cost expected_cost(const Request& request) {
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) return cost_of(*analyze);
+  const Cost written = times(expected_points(request), writing);
+  if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
+    return cost_of(*optimize) + written;
+  return cost_of(std::get<GenerateRequest>(request.operation)) + written;
+}
+
+void require_affordable(const Request& request, const Limits& limits) {
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation))
+    require_affordable_measures(*analyze, limits);
+  const double bytes = expected_cost(request).bytes;
+  if (bytes <= static_cast<double>(limits.memory_bytes)) return;
+  throw Error(ErrorCode::too_large,
+              "the job would need about " + mebibytes(bytes) + " of memory, but the limit here is " +
+                  mebibytes(static_cast<double>(limits.memory_bytes)) + "; ask for fewer points",
+              size_field(request));
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,57 @@
+#include "proto/measures/measures.h"
+
+#include <vector>
+
+#include "core/error.h"
+#include "proto/measures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+const std::vector<Measure> measure_rows = {
+    spacing_measure(),
+    certificate_measure(),
+    spectrum_measure(),
+    periodogram_measure(),
+};
+
+}  // namespace
+
+std::span<const Measure> measures() { return measure_rows; }
+
+const Measure* find_measure(std::string_view name) {
+  for (const Measure& measure : measure_rows)
+    if (measure.name == name) return &measure;
+  return nullptr;
+}
+
+void require_meaning(const Measure& measure, const Domain& domain, const std::string& where) {
+  if (!measure.needs_torus || domain.type() == "torus") return;
+  throw Error(
+      ErrorCode::invalid_parameters,
+      measure.name + " means nothing on a " + std::string(domain.type()) +
+          ", which doesn't repeat along two axes; ask for spacing or distributions, or for this on a torus",
+      where);
+}
+
+void require_same_domain(const Domain& first, const Domain& other, const std::string& where) {
+  const Vec3 a = first.box().size, b = other.box().size;
+  if (first.type() == other.type() && a.x == b.x && a.y == b.y && a.z == b.z) return;
+  throw Error(
+      ErrorCode::invalid_parameters,
+      "this set is on another domain than the first one; averages are over sets on one domain, compare "
+      "others with \"compare\": [...]",
+      where);
+}
+
+void require_same_size(double first, double other, const std::string& where) {
+  if (first == other) return;
+  const auto text = [](double n) { return std::to_string(static_cast<std::uint64_t>(n)); };
+  throw Error(ErrorCode::invalid_parameters,
+              "this set has " + text(other) + " points, the first one " + text(first) +
+                  "; averages are over sets of one size: generate by count, or compare them with "
+                  "\"compare\": [...]",
+              where);
+}
+
+}  // namespace wellspaced

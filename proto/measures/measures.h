@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/control.h"
+#include "core/point_set.h"
+#include "core/registry.h"
+
+namespace wellspaced {
+
+struct Certificate;
+struct Spacing;
+
+/// What a measure's cost depends on.
+struct MeasureSize {
+  double n = 0;  ///< points a set
+  double sets = 1;
+  double aspect = 1;  ///< longer over shorter side of the domain
+};
+
+/// One measure of `analyze`. Its object in the result is described by its schema.
+struct Measure : Method {
+  /// Averages over sets that are usable, of one size and on one domain; at least one.
+  /// Errors: with the parameter's pointer for a bad one; without a pointer for what the points are to blame.
+  nlohmann::ordered_json (*run)(std::span<const PointSet> sets, const Arguments&, const Control&) = nullptr;
+  nlohmann::ordered_json (*schema)() = nullptr;                  ///< JSON Schema of what `run` returns
+  Cost (*cost)(const MeasureSize&, const Arguments&) = nullptr;  ///< of all sets
+  bool needs_torus = false;                                      ///< it means nothing on another domain
+};
+
+/// All measures. One row each in measures.cpp.
+std::span<const Measure> measures();
+/// Nothing if there is none of that name.
+const Measure* find_measure(std::string_view name);
+
+/// Errors: invalid_parameters at `where` if the measure means nothing on that domain, saying what to ask for
+/// instead.
+void require_meaning(const Measure& measure, const Domain& domain, const std::string& where);
+
+/// Averages are over sets of one domain and size. Errors: invalid_parameters at `where`.
+void require_same_domain(const Domain& first, const Domain& other, const std::string& where);
+void require_same_size(double first, double other, const std::string& where);
+
+nlohmann::ordered_json spacing_to_json(const Spacing& spacing);
+nlohmann::ordered_json spacing_schema();
+
+/// Each bound is null where there is no certificate.
+nlohmann::ordered_json certificate_to_json(const std::optional<Certificate>& certificate);
+nlohmann::ordered_json certificate_schema();
+
+}  // namespace wellspaced

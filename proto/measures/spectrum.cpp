@@ -1,0 +1,189 @@
+#include "core/analyze/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/analyze/periodogram.h"
+#include "core/math.h"
+#include "proto/measures/number_fields.h"
+#include "proto/measures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double spectrum_range = 6.5, periodogram_range = 2.5;
+
+Parameter range_parameter(double fallback) {
+  Parameter p;
+  p.name = "range";
+  p.description = "largest frequency, in units of sqrt(n / A)";
+  p.minimum = 0.1;
+  p.maximum = 1000;
+  p.fallback = ordered_json(fallback).dump();
+  return p;
+}
+
+double range_of(const Arguments& arguments, double fallback) {
+  return argument(arguments, "range").value_or(fallback);
+}
+
+/// Whole frequencies up to `range` sqrt(n / A) along both axes.
+double k_max_of(double n, double aspect, double range) {
+  return std::max(1.0, std::ceil(range * std::sqrt(n * aspect)));
+}
+
+Periodogram mean_periodogram(std::span<const PointSet> sets, double range, const Control& control) {
+  const Vec3 sides = sets.front().domain->box().size;
+  const double aspect = std::max(sides.x / sides.y, sides.y / sides.x);
+  const double k_max = k_max_of(static_cast<double>(sets.front().size()), aspect, range);
+  if (k_max > largest_k_max)
+    throw Error(ErrorCode::invalid_parameters,
+                "this is frequency " + std::to_string(static_cast<std::uint64_t>(k_max)) +
+                    " of a side, and " + std::to_string(largest_k_max) +
+                    " is the most; ask for a smaller range",
+                "/range");
+  Periodogram sum = periodogram(sets.front(), static_cast<int>(k_max), control);
+  for (const PointSet& set : sets.subspan(1)) {
+    const Periodogram next = periodogram(set, static_cast<int>(k_max), control);
+    for (std::size_t i = 0; i < sum.power.size(); ++i) sum.power[i] += next.power[i];
+  }
+  for (double& power : sum.power) power /= static_cast<double>(sets.size());
+  return sum;
+}
+
+/// Two periodograms for more than one set.
+Cost cost_of_transforms(const MeasureSize& size, double range) {
+  const double k_max = k_max_of(size.n, size.aspect, range);
+  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
+  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
+  const double power = 8 * 2 * k_max * k_max;
+  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max),
+          static_cast<double>(bytes) + (size.sets > 1 ? power : 0)};
+}
+
+ordered_json numbers(const std::vector<double>& values) {
+  ordered_json out = ordered_json::array();
+  for (const double value : values)
+    out.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
+  return out;
+}
+
+ordered_json optional_number(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+ordered_json run_spectrum(std::span<const PointSet> sets, const Arguments& arguments,
+                          const Control& control) {
+  const Periodogram mean = mean_periodogram(sets, range_of(arguments, spectrum_range), control);
+  const Spectrum s = spectrum(mean, static_cast<int>(sets.size()));
+  std::vector<double> frequency(s.power.size());
+  for (std::size_t r = 0; r < frequency.size(); ++r) frequency[r] = static_cast<double>(r) / std::sqrt(s.n);
+  return {{"effective_nyquist", optional_number(effective_nyquist(s))},
+          {"oscillations", optional_number(oscillations(s))},
+          {"anisotropy_mean_db", optional_number(mean_anisotropy_db(s))},
+          {"anisotropy_expected_db", 0.0 - 10 * portable_log10(static_cast<double>(sets.size()))},
+          {"frequency", numbers(frequency)},
+          {"power", numbers(s.power)},
+          {"anisotropy_db", numbers(s.anisotropy_db)}};
+}
+
+ordered_json spectrum_schema() {
+  ordered_json schema = {{"type", "object"}};
+  add_property(schema, "effective_nyquist",
+               number_or_null("in units of sqrt(n / A): up to it there is nearly no power; null if the range "
+                              "ends before"));
+  add_property(schema, "oscillations",
+               number_or_null("10 times the root mean square of power - 1 above the first frequency where it "
+                              "comes to .98, over 5 sqrt(n / A); null if the range ends before"));
+  add_property(
+      schema, "anisotropy_mean_db",
+      number_or_null("mean over the rings from .5 to 2.5 sqrt(n / A); null if the range ends before"));
+  add_property(schema, "anisotropy_expected_db",
+               {{"type", "number"},
+                {"description", "of sets without a preferred direction: -10 log10(number of sets)"}});
+  add_property(schema, "frequency", numbers_property("of each ring, in units of sqrt(n / A)"));
+  add_property(schema, "power", numbers_property("mean over each ring; 1 for white noise, 0 at frequency 0"));
+  add_property(schema, "anisotropy_db", numbers_property("10 log10(variance / mean^2) over each ring"));
+  return schema;
+}
+
+ordered_json run_periodogram(std::span<const PointSet> sets, const Arguments& arguments,
+                             const Control& control) {
+  const Periodogram mean = mean_periodogram(sets, range_of(arguments, periodogram_range), control);
+  ordered_json rows = ordered_json::array();
+  const auto row = static_cast<std::size_t>(2 * mean.k_max + 1);
+  for (std::size_t kx = 0; kx <= static_cast<std::size_t>(mean.k_max); ++kx) {
+    if (kx % 64 == 0) control.check();
+    const auto begin = mean.power.begin() + static_cast<std::ptrdiff_t>(kx * row);
+    rows.push_back(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(row)));
+  }
+  return {{"k_max", mean.k_max}, {"power", std::move(rows)}};
+}
+
+ordered_json periodogram_schema() {
+  ordered_json schema = {{"type", "object"}};
+  add_property(schema, "k_max", {{"type", "integer"}, {"description", "largest frequency along both axes"}});
+  add_property(
+      schema, "power",
+      {{"type", "array"},
+       {"description",
+        "rows for kx = 0 .. k_max of the power at ky = -k_max .. k_max; that at (-kx, -ky) is the same; "
+        "0 at (0, 0)"},
+       {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}});
+  return schema;
+}
+
+Cost spectrum_cost(const MeasureSize& size, const Arguments& arguments) {
+  return cost_of_transforms(size, range_of(arguments, spectrum_range));
+}
+
+Cost periodogram_cost(const MeasureSize& size, const Arguments& arguments) {
+  Cost cost = cost_of_transforms(size, range_of(arguments, periodogram_range));
+  const double numbers =
+      2 * std::pow(k_max_of(size.n, size.aspect, range_of(arguments, periodogram_range)), 2);
+  cost.bytes += 60 * numbers;  // as JSON, and as its text
+  cost.seconds += 3e-7 * numbers;
+  return cost;
+}
+
+}  // namespace
+
+Measure spectrum_measure() {
+  Measure row;
+  row.name = "spectrum";
+  row.title = "Spectrum";
+  row.description =
+      "What the periodogram, averaged over the sets, tells by rings of equal frequency: radial mean, "
+      "anisotropy, "
+      "effective Nyquist frequency and oscillations.";
+  row.reference = "Ulichney 1988; Lagae and Dutre 2008; Heck, Schloemer and Deussen 2013";
+  row.parameters = {range_parameter(spectrum_range)};
+  row.run = run_spectrum;
+  row.schema = spectrum_schema;
+  row.cost = spectrum_cost;
+  row.needs_torus = true;
+  return row;
+}
+
+Measure periodogram_measure() {
+  Measure row;
+  row.name = "periodogram";
+  row.title = "Periodogram";
+  row.description =
+      "How much the sets hold of each frequency, on average: |sum_j exp(-2 pi i k.x_j)|^2 / n at whole k = "
+      "(kx / width, ky / height).";
+  row.reference = "Ulichney 1988";
+  row.parameters = {range_parameter(periodogram_range)};
+  row.run = run_periodogram;
+  row.schema = periodogram_schema;
+  row.cost = periodogram_cost;
+  row.needs_torus = true;
+  return row;
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,220 @@
+#include "proto/source_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/domain/torus.h"
+#include "core/generate/enrich.h"
+#include "core/generate/generate.h"
+#include "proto/arguments.h"
+#include "proto/find_row.h"
+
+namespace wellspaced {
+namespace {
+
+using nlohmann::json;
+
+std::shared_ptr<const Domain> domain_field(Fields& fields) {
+  const json* value = fields.find("domain");
+  return value != nullptr ? read_domain(*value, fields.pointer_to("domain")) : nullptr;
+}
+
+std::shared_ptr<const Domain> or_unit_torus(std::shared_ptr<const Domain> domain) {
+  return domain != nullptr ? std::move(domain) : std::make_shared<Torus>();
+}
+
+void require_count(double points, std::uint64_t limit, const std::string& where) {
+  if (points <= static_cast<double>(limit)) return;
+  throw Error(ErrorCode::too_large,
+              (std::isfinite(points) ? "about " + number_text(std::round(points)) : "Countless") +
+                  " points are asked for, but the limit here is " + std::to_string(limit) + "; ask for fewer",
+              where);
+}
+
+void require_room_to_enrich(const OptimizeRequest& request, std::uint64_t limit) {
+  const double most = expected_points({std::make_shared<OptimizeRequest>(request), ""});
+  if (most <= static_cast<double>(limit)) return;
+  throw Error(ErrorCode::too_large,
+              "with its holes filled the set may have up to " + number_text(std::round(most)) +
+                  " points, but the limit here is " + std::to_string(limit) +
+                  "; bring fewer points, or leave enrich out",
+              request.pointer + "/enrich");
+}
+
+/// The same source, with its generator's seed moved on.
+PointSource reseeded(const PointSource& source, std::uint64_t by, const std::string& seeds_pointer) {
+  PointSource moved = source;
+  if (auto* generated = std::get_if<GenerateRequest>(&moved.from)) {
+    if (!generated->method->random)
+      throw Error(ErrorCode::invalid_parameters,
+                  generated->method->name + " takes no seed, all sets would be the same; leave seeds out",
+                  seeds_pointer);
+    generated->seed += by;
+  } else if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from)) {
+    OptimizeRequest request = **optimized;
+    request.points = reseeded(request.points, by, seeds_pointer);
+    moved.from = std::make_shared<const OptimizeRequest>(std::move(request));
+  } else {
+    throw Error(ErrorCode::invalid_parameters,
+                "only generated points have seeds; give several sets of your own as \"sets\": [...]",
+                seeds_pointer);
+  }
+  return moved;
+}
+
+/// What a radius gives is known only after the work.
+void require_three(const PointSource& source) {
+  const auto* generated = std::get_if<GenerateRequest>(&source.from);
+  if (generated != nullptr && argument(generated->arguments, "count").value_or(3) < 3)
+    throw Error(ErrorCode::degenerate_input, "at least 3 points are needed here",
+                generated->pointer + "/count");
+}
+
+}  // namespace
+
+SourceReader::SourceReader(JsonDocument& document, std::uint64_t most_points, const JobPoints& job_points)
+    : most_points_(most_points), job_points_(job_points) {
+  for (JsonTable& table : document.tables) tables_[table.pointer] = std::move(table.table);
+}
+
+GenerateRequest SourceReader::generate(Fields& fields) const {
+  GenerateRequest request;
+  request.pointer = fields.pointer();
+  request.domain = or_unit_torus(domain_field(fields));
+  request.method = &find_row(generators(), fields.text("method").value_or(generators().front().name),
+                             fields.pointer_to("method"));
+  request.seed = fields.whole("seed").value_or(0);
+  request.arguments = read_arguments(*request.method, fields);
+  const std::string density = fields.pointer_to(request.arguments.count("count") != 0 ? "count" : "radius");
+  require_count(request.method->expected_count(*request.domain, request.arguments), most_points_, density);
+  try {
+    if (request.method->check != nullptr) request.method->check(*request.domain, request.arguments);
+  } catch (const Error& error) {
+    throw error.within(fields.pointer());
+  }
+  return request;
+}
+
+OptimizeRequest SourceReader::optimize(Fields& fields) {
+  OptimizeRequest request;
+  request.pointer = fields.pointer();
+  // The method's own fields first: they are cheap to check, the points are not.
+  request.method = &find_row(optimizers(), fields.text("method").value_or(optimizers().front().name),
+                             fields.pointer_to("method"));
+  fields.find("points");
+  fields.find("domain");
+  request.enrich = fields.flag("enrich").value_or(false);
+  request.arguments = read_arguments(*request.method, fields);
+  request.points = points(fields);
+  if (request.enrich) require_room_to_enrich(request, most_points_);
+  return request;
+}
+
+PointSet SourceReader::inline_points(std::shared_ptr<const Domain> domain, const std::string& pointer) {
+  Table& table = tables_[pointer];
+  const auto dimension = static_cast<std::size_t>(domain->dimension());
+  if (table.rows != 0 && table.columns != dimension)
+    throw Error(ErrorCode::invalid_parameters,
+                "points of a " + std::string(domain->type()) + " have " + std::to_string(dimension) +
+                    " coordinates; these have " + std::to_string(table.columns),
+                pointer);
+  PointSet points{std::move(domain), std::move(table.values)};
+  try {
+    require_usable(points, Control());
+  } catch (const Error& error) {
+    throw error.within(pointer);
+  }
+  return points;
+}
+
+PointSet SourceReader::job_points(Fields& fields) const {
+  const std::string id = *fields.text("job");
+  fields.refuse_unknown();
+  try {
+    return job_points_(id);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.what(), fields.pointer_to("job"));
+  }
+}
+
+PointSource SourceReader::object(const json& value, const std::string& pointer) {
+  Fields fields(value, pointer);
+  const json *generated = fields.find("generate"), *optimized = fields.find("optimize"),
+             *job = fields.find("job"), *points = fields.find("points");
+  if ((generated != nullptr) + (optimized != nullptr) + (job != nullptr) + (points != nullptr) != 1)
+    throw Error(ErrorCode::invalid_parameters, "give exactly one of generate, optimize, job or points",
+                pointer);
+  if (job != nullptr) return {job_points(fields), pointer};
+  if (generated != nullptr) {
+    fields.refuse_unknown();
+    Fields inner(*generated, fields.pointer_to("generate"));
+    return {generate(inner), pointer};
+  }
+  if (optimized != nullptr) {
+    fields.refuse_unknown();
+    Fields inner(*optimized, fields.pointer_to("optimize"));
+    return {std::make_shared<const OptimizeRequest>(optimize(inner)), pointer};
+  }
+  if (!points->is_array())
+    throw Error(ErrorCode::invalid_parameters, "expected an array of points, found " + describe(*points),
+                fields.pointer_to("points"));
+  std::shared_ptr<const Domain> domain = or_unit_torus(domain_field(fields));
+  fields.refuse_unknown();
+  return {inline_points(std::move(domain), fields.pointer_to("points")), pointer};
+}
+
+PointSource SourceReader::source(const json& value, const std::string& pointer,
+                                 const std::shared_ptr<const Domain>& domain) {
+  if (value.is_array()) return {inline_points(or_unit_torus(domain), pointer), pointer};
+  PointSource found = object(value, pointer);
+  require_three(found);
+  return found;
+}
+
+PointSource SourceReader::points(Fields& fields) {
+  const json& value = fields.require(
+      "points", "[[x, y], ...], {\"generate\": {...}}, {\"optimize\": {...}} or {\"job\": \"...\"}");
+  const bool bare = value.is_array();
+  PointSource found = source(value, fields.pointer_to("points"), bare ? domain_field(fields) : nullptr);
+  if (!bare && fields.find("domain") != nullptr)
+    throw Error(ErrorCode::invalid_parameters, "the points bring their own domain; put it where they are",
+                fields.pointer_to("domain"));
+  return found;
+}
+
+SourceGroup SourceReader::group(Fields& fields) {
+  constexpr std::uint64_t most_sets = 1000;
+  SourceGroup group;
+  const json* sets = fields.find("sets");
+  const std::string seeds_pointer = fields.pointer_to("seeds");
+  const std::uint64_t seeds = fields.whole("seeds").value_or(1);
+  if (seeds < 1 || seeds > most_sets)
+    throw Error(ErrorCode::invalid_parameters, "the number of sets must be in [1, 1000]", seeds_pointer);
+  if (sets == nullptr) {
+    group.pointer = fields.pointer_to("points");
+    const PointSource first = points(fields);
+    group.sets = {first};
+    for (std::uint64_t s = 1; s < seeds; ++s) group.sets.push_back(reseeded(first, s, seeds_pointer));
+    return group;
+  }
+  group.pointer = fields.pointer_to("sets");
+  for (const char* other : {"points", "seeds"})
+    if (fields.find(other) != nullptr)
+      throw Error(ErrorCode::invalid_parameters, "give either sets, or points with as many seeds, not both",
+                  fields.pointer_to(other));
+  if (!sets->is_array() || sets->empty() || sets->size() > most_sets)
+    throw Error(ErrorCode::invalid_parameters,
+                "expected an array of 1 to 1000 point sets, each as points are given elsewhere",
+                group.pointer);
+  const std::shared_ptr<const Domain> domain = domain_field(fields);
+  for (std::size_t s = 0; s < sets->size(); ++s)
+    group.sets.push_back(source((*sets)[s], group.pointer + "/" + std::to_string(s), domain));
+  const auto bare = [](const json& set) { return set.is_array(); };
+  if (domain != nullptr && std::none_of(sets->begin(), sets->end(), bare))
+    throw Error(ErrorCode::invalid_parameters, "the sets bring their own domain; put it where they are",
+                fields.pointer_to("domain"));
+  return group;
+}
+
+}  // namespace wellspaced
