@@ -54,7 +54,7 @@ struct ZonePlate {
   double rmse = 0;
 };
 
-/// The field as k samples would show it: each pixel is the mean of f at the samples within 3 sigma of its
+/// The field as the samples show it: each pixel is the mean of f at the samples within 3 sigma of its
 /// center, weighted by exp(-d^2 / (2 sigma^2)) and normalized. Where there are none, the reach is widened to
 /// the nearest sample, and the pixel is f there (of several, at the first). Samples are not repeated beyond
 /// the sides, since f isn't periodic: pixels at the border see those on one side only.
