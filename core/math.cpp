@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace wellspaced {
@@ -29,7 +31,18 @@ double atan_unit(double t) {
   return atan_of_eighths[static_cast<std::size_t>(k)] + (s + s * sum);
 }
 
-/// Cosine and sine on [0, pi / 4], by their series.
+/// 1 / k!, k = 0..13.
+constexpr std::array<double, 14> one_by_factorial = [] {
+  std::array<double, 14> values{};
+  double factorial = 1;  // exact
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    factorial *= k == 0 ? 1.0 : static_cast<double>(k);
+    values[k] = 1 / factorial;
+  }
+  return values;
+}();
+
+/// Cosine and sine on [-pi / 4, pi / 4], by their series.
 CosSin cos_sin_of_eighth(double angle) {
   const double z = angle * angle;
   double cos = 0, sin = 0;
@@ -65,6 +78,19 @@ double portable_log10(double x) {
   return exponent * log10_of_2 + 2 * log10_of_e * (s + s * sum);
 }
 
+double portable_exp(double x) {
+  // ln 2 in two parts: the first has 32 trailing zeros, so that its products with whole numbers are exact.
+  constexpr double ln2 = 0x1.62e42feep-1, ln2_rest = 0x1.a39ef35793c76p-33, one_by_ln2 = 1.4426950408889634;
+  if (x > 710) return std::numeric_limits<double>::infinity();
+  if (x < -746) return 0;
+  if (std::isnan(x)) return x;
+  const double power = std::floor(x * one_by_ln2 + 0.5);
+  const double high = x - power * ln2, low = power * ln2_rest, r = high - low;  // |r| <= .347
+  double sum = 0;
+  for (std::size_t k = one_by_factorial.size(); k-- > 2;) sum = one_by_factorial[k] + r * sum;
+  return std::ldexp(1 + (r + (r * r * sum + (high - r - low))), static_cast<int>(power));
+}
+
 CosSin portable_cos_sin(std::uint64_t k, std::uint64_t n) {
   const std::uint64_t quarter = 4 * k / n, rest = 4 * k - quarter * n;  // rest / n of a quarter turn
   const bool beyond = 2 * rest > n;                                     // an eighth: count from the other end
@@ -72,6 +98,16 @@ CosSin portable_cos_sin(std::uint64_t k, std::uint64_t n) {
   auto [cos, sin] = cos_sin_of_eighth(pi / 2 * part);
   if (beyond) std::swap(cos, sin);
   for (std::uint64_t turn = 0; turn < quarter; ++turn) {
+    std::swap(cos, sin);
+    cos = -cos;
+  }
+  return {cos, sin};
+}
+
+CosSin portable_cos_sin(double turns) {
+  const double quarters = std::floor(4 * turns + 0.5);
+  auto [cos, sin] = cos_sin_of_eighth(2 * pi * (turns - quarters / 4));  // an exact difference
+  for (auto turn = static_cast<std::int64_t>(quarters) & 3; turn > 0; --turn) {
     std::swap(cos, sin);
     cos = -cos;
   }

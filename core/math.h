@@ -14,6 +14,10 @@ double portable_atan2(double y, double x);
 /// Decimal logarithm of x > 0, finite. Accuracy: 4 ulp, and 1e-16 absolute near 1.
 double portable_log10(double x);
 
+/// e^x for any x: 0 below -745.2, infinite above 709.8, NaN for NaN. Accuracy: 1 ulp, also where the result
+/// is subnormal.
+double portable_exp(double x);
+
 struct CosSin {
   double cos = 1, sin = 0;
 };
@@ -21,6 +25,9 @@ struct CosSin {
 /// Cosine and sine of k n-ths of a whole turn, k < n < 2^60. Accuracy: 1e-16 absolute; exact at quarter
 /// turns.
 CosSin portable_cos_sin(std::uint64_t k, std::uint64_t n);
+
+/// The same of any number of whole turns, |turns| < 2^52. Accuracy: 2e-16 absolute; exact at quarter turns.
+CosSin portable_cos_sin(double turns);
 
 inline constexpr double pi = 3.14159265358979323846;
 

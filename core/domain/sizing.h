@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/domain/domain.h"
+#include "core/vec.h"
+
+namespace wellspaced {
+
+/// Which radius r(x) is wanted where, for sets that are denser in some places than in others: lengths near x
+/// (r_f, r_c) are compared with r(x), taken at the sample. Ratios such as beta_i don't depend on its scale.
+///
+/// Guarantees of every implementation: r(x) is positive and finite at every point of the domain; it changes
+/// by at most lipschitz() times the distance, but where the implementation tells of jumps. Thread safety:
+/// immutable after construction.
+class Sizing {
+ public:
+  virtual ~Sizing() = default;
+
+  virtual std::string_view type() const = 0;  ///< its name in requests: "constant"
+  virtual double at(Vec3 p) const = 0;        ///< r(p), domain lengths. Requires: p is in the domain
+  virtual double lipschitz() const = 0;       ///< the least L with |r(p) - r(q)| <= L |p - q|; 0 if constant
+};
+
+/// The same radius everywhere.
+///
+/// Errors of the constructor: invalid_parameters at /radius unless it is positive and finite.
+class ConstantSizing final : public Sizing {
+ public:
+  explicit ConstantSizing(double radius);
+
+  std::string_view type() const override { return "constant"; }
+  double at(Vec3) const override { return radius_; }
+  double lipschitz() const override { return 0; }
+
+ private:
+  double radius_;
+};
+
+/// What r is linear along, and its values at both ends of the domain's box.
+struct LinearSizingOptions {
+  int axis = 0;  ///< 0: x, 1: y
+  double from = 0, to = 0;
+};
+
+/// Linear in a coordinate: r goes from `from` at the box's low side to `to` at its high side, and stays
+/// between the two whatever rounding does.
+///
+/// On a domain that is periodic along the axis r jumps from `to` back to `from` at the seam: lipschitz() is
+/// that of the inside. Errors of the constructor: invalid_parameters at /axis for another axis than 0 or 1,
+/// at /from and /to for radii that are not positive and finite. Requires: the box has an extent along the
+/// axis.
+class LinearSizing final : public Sizing {
+ public:
+  LinearSizing(const Domain& domain, const LinearSizingOptions& options);
+
+  std::string_view type() const override { return "linear"; }
+  double at(Vec3 p) const override;
+  double lipschitz() const override;
+
+ private:
+  LinearSizingOptions options_;
+  double low_ = 0, size_ = 1;  ///< of the box along the axis
+};
+
+}  // namespace wellspaced
