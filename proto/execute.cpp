@@ -110,7 +110,7 @@ Result run(const GenerateRequest& request, Control& control) {
                           {"parameters", parameters_to_json(*request.method, request.arguments)}};
   if (request.method->random) summary["seed"] = request.seed;
   add_end(summary, points);
-  return {"generate", std::move(summary), one_group(std::move(points)), ""};
+  return {"generate", std::move(summary), one_group(std::move(points)), {}};
 }
 
 ordered_json history_to_json(const std::vector<SweepRecord>& history) {
@@ -179,7 +179,7 @@ Made optimize(const OptimizeRequest& request, Control& control) {
 Result run(const OptimizeRequest& request, Control& control) {
   Made made = optimize(request, control);
   add_end(made.optimized, made.points);
-  return {"optimize", std::move(made.optimized), one_group(std::move(made.points)), ""};
+  return {"optimize", std::move(made.optimized), one_group(std::move(made.points)), {}};
 }
 
 Made make(const PointSource& source, Control& control) {
@@ -234,7 +234,7 @@ ResultGroup analyze(const AnalyzeRequest& request, const SourceGroup& group, Con
 }
 
 Result run(const AnalyzeRequest& request, Control& control) {
-  Result result{"analyze", ordered_json::object(), {}, ""};
+  Result result{"analyze", ordered_json::object(), {}, {}};
   const auto count = static_cast<double>(request.groups.size());
   for (const SourceGroup& group : request.groups) {
     const auto done = static_cast<double>(result.groups.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/registry.h"
+#include "core/render/pictures/pictures.h"
 #include "proto/measures/measures.h"
 #include "proto/openapi_schemas.h"
 #include "proto/operations.h"
@@ -70,13 +71,33 @@ ordered_json parameter(const std::string& name, const std::string& in, const std
   return out;
 }
 
+/// Besides format and picture, the parameters of all pictures: picture.color, ...
 ordered_json format_parameters(std::string_view operation) {
   ordered_json names = ordered_json::array(), picture_names = ordered_json::array();
   for (const Format format : formats_of(operation)) names.push_back(name_of(format));
-  for (const auto picture : pictures()) picture_names.push_back(picture);
-  return {parameter("format", "query", "wins over Accept", {{"type", "string"}, {"enum", names}}),
-          parameter("picture", "query", "what an SVG answer shows",
-                    {{"type", "string"}, {"enum", picture_names}})};
+  for (const Picture& picture : pictures()) picture_names.push_back(picture.name);
+  ordered_json parameters = {
+      parameter("format", "query", "wins over Accept", {{"type", "string"}, {"enum", names}}),
+      parameter("picture", "query", "what an SVG or PNG answer shows",
+                {{"type", "string"}, {"enum", picture_names}})};
+  ordered_json schemas = ordered_json::object();
+  const ordered_json choices = openapi_schemas()["Picture"]["oneOf"];
+  for (const ordered_json& choice : choices) {
+    if (!choice.contains("properties")) continue;
+    for (const auto& [name, schema] : choice["properties"].items()) {
+      if (name == "name") continue;
+      if (!schemas.contains(name))
+        schemas[name] = schema;
+      else if (schemas[name] != schema)
+        schemas[name].erase("default");  // it depends on the picture
+    }
+  }
+  for (const auto& [name, schema] : schemas.items()) {
+    ordered_json plain = schema;
+    plain.erase("description");
+    parameters.push_back(parameter("picture." + name, "query", schema["description"], std::move(plain)));
+  }
+  return parameters;
 }
 
 ordered_json binary_schema() {

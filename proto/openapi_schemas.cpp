@@ -4,6 +4,7 @@
 #include "core/registry.h"
 #include "proto/measures/measures.h"
 #include "proto/operations.h"
+#include "proto/picture.h"
 #include "proto/result.h"
 
 namespace wellspaced {
@@ -79,15 +80,6 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
   schema["description"] = method.description;
   if (!densities.empty()) schema["oneOf"] = std::move(densities);
   return schema;
-}
-
-ordered_json picture_schema() {
-  ordered_json names = ordered_json::array();
-  for (const auto name : pictures()) names.push_back(name);
-  return {{"type", "string"},
-          {"enum", names},
-          {"default", pictures().front()},
-          {"description", "what an SVG answer shows"}};
 }
 
 /// One schema a method and their union.
@@ -226,7 +218,7 @@ void add_analyze_request(ordered_json& schemas) {
       {"minItems", 1},
       {"maxItems", 16}};
   request["measures"] = measures_schema();
-  request["picture"] = picture_schema();
+  request["picture"] = schema_reference("Picture");
   schemas["AnalyzeRequest"] = closed(object(request));
   schemas["AnalyzeRequest"]["oneOf"] = {
       {{"required", {"points"}}}, {{"required", {"sets"}}}, {{"required", {"compare"}}}};
@@ -288,11 +280,12 @@ ordered_json openapi_schemas() {
   ordered_json schemas;
   schemas["Domain"] = domain_schema();
   schemas["Points"] = points_schema();
+  schemas["Picture"] = picture_schema();
   const ordered_json seed = {
       {"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
   const ordered_json made = {{"domain", schema_reference("Domain")}, {"seed", seed}};
   ordered_json asked = made;
-  asked["picture"] = picture_schema();
+  asked["picture"] = schema_reference("Picture");
   add_methods(schemas, "PointsToGenerate", generators(), made);
   add_methods(schemas, "GenerateRequest", generators(), asked);
   schemas["PointSource"] = source_schema();
@@ -301,7 +294,7 @@ ordered_json openapi_schemas() {
                                   {"enrich", enrich_schema()}};
   add_methods(schemas, "PointsToOptimize", optimizers(), worked_on);
   ordered_json optimize = worked_on;
-  optimize["picture"] = picture_schema();
+  optimize["picture"] = schema_reference("Picture");
   add_methods(schemas, "OptimizeRequest", optimizers(), optimize);
   add_analyze_request(schemas);
   add_results(schemas);

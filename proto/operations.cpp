@@ -1,5 +1,6 @@
 #include "proto/operations.h"
 
+#include "core/render/pictures/pictures.h"
 #include "proto/measures/measures.h"
 #include "proto/result.h"
 
@@ -80,9 +81,7 @@ ordered_json operations_json(const Limits& limits) {
   add("optimize", "Moves the points of a set until it is as well spaced as asked for.", "methods",
       methods_json(optimizers()), limits.optimize_points);
   add("analyze", "Measures a point set.", "measures", measures_json(), limits.analyze_points);
-  ordered_json names = ordered_json::array();
-  for (const auto picture : pictures()) names.push_back(picture);
-  out["pictures"] = std::move(names);
+  out["pictures"] = methods_json(pictures());
   out["limits"] = {{"body_bytes", limits.body_bytes},
                    {"picture_points", limits.picture_points},
                    {"sync_seconds", limits.sync_seconds},

@@ -8,7 +8,7 @@
 #include "proto/arguments.h"
 #include "proto/fields.h"
 #include "proto/find_row.h"
-#include "proto/formats/media.h"
+#include "proto/picture.h"
 #include "proto/source_reader.h"
 
 namespace wellspaced {
@@ -151,8 +151,10 @@ Request read_request(const RawRequest& raw, const Limits& limits, const JobPoint
   SourceReader reader(document, point_limit(raw.operation, limits), job_points);
   Fields fields(document.root, "");
   Request request;
-  request.picture = fields.text("picture").value_or("");
-  if (!request.picture.empty()) require_picture(request.picture, "/picture");
+  if (const json* picture = fields.find("picture")) {
+    read_picture(*picture, "/picture");
+    request.picture = *picture;
+  }
   if (raw.operation == "generate") {
     request.operation = reader.generate(fields);
   } else if (raw.operation == "optimize") {

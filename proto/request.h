@@ -60,7 +60,7 @@ struct AnalyzeRequest {
 
 struct Request {
   std::variant<GenerateRequest, OptimizeRequest, AnalyzeRequest> operation;
-  std::string picture;  ///< wanted picture, or empty
+  nlohmann::json picture;  ///< that is asked for, as read_picture takes it; null if there is none
 };
 
 /// Finds the points of an earlier job's result. Errors: no_such_job, result_not_ready, ...

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "core/render/svg.h"
 #include "proto/json_writer.h"
+#include "proto/picture.h"
 #include "proto/request.h"
 
 namespace wellspaced {
@@ -31,12 +31,17 @@ std::string write_json(const Result& result) {
   return text + "}\n";
 }
 
-/// The summary's scalars (and the domain), small enough for a header.
+/// An object without the lists in it and in what it holds.
+ordered_json without_arrays(const ordered_json& object) {
+  ordered_json out = ordered_json::object();
+  for (const auto& [key, value] : object.items())
+    if (!value.is_array()) out[key] = value.is_object() ? without_arrays(value) : value;
+  return out;
+}
+
+/// The summary's numbers and names, small enough for a header.
 std::string summary_line(const Result& result) {
-  ordered_json line;
-  for (const auto& [key, value] : result.summary.items())
-    if (!value.is_array()) line[key] = value;
-  return line.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  return without_arrays(result.summary).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
 
 Error unreadable() { return {ErrorCode::internal, "a kept result can't be read"}; }
@@ -75,17 +80,12 @@ Result load(const ordered_json& head, std::string_view data) {
   return result;
 }
 
-std::string write_svg(const Result& result, std::string_view picture, const Limits& limits,
-                      const Control& control) {
-  if (result.points().size() > limits.picture_points)
-    throw Error(ErrorCode::too_large,
-                "a picture of " + std::to_string(result.points().size()) + " points is above the limit of " +
-                    std::to_string(limits.picture_points) + "; ask for the points and draw a part of them");
-  std::string_view name = picture.empty() ? std::string_view(result.picture) : picture;
-  SvgOptions options;
-  if (name == "delaunay") options.picture = Picture::delaunay;
-  if (name == "points") options.picture = Picture::points;
-  return render_svg(result.points(), options, control);
+std::string write_picture(const Result& result, Format format, const nlohmann::json& picture,
+                          const Limits& limits, const Control& control) {
+  const PictureCall call =
+      read_picture(picture.is_null() ? nlohmann::json(result.picture) : picture, "/picture");
+  const Drawing drawing = draw_result(result, call, limits, control);
+  return format == Format::svg ? to_svg(drawing) : to_png(drawing, call.scale);
 }
 
 }  // namespace
@@ -142,13 +142,14 @@ Result load_result(std::string_view bytes) {
 }
 
 std::span<const Format> formats_of(std::string_view operation) {
-  static constexpr std::array<Format, 4> with_points = {Format::json, Format::npy, Format::csv, Format::svg};
-  static constexpr std::array<Format, 2> without = {Format::json, Format::svg};
+  static constexpr std::array<Format, 5> with_points = {Format::json, Format::npy, Format::csv, Format::svg,
+                                                        Format::png};
+  static constexpr std::array<Format, 3> without = {Format::json, Format::svg, Format::png};
   return operation == "analyze" ? std::span<const Format>(without) : std::span<const Format>(with_points);
 }
 
-Encoded encode_result(const Result& result, Format format, std::string_view picture, const Limits& limits,
-                      const Control& control) {
+Encoded encode_result(const Result& result, Format format, const nlohmann::json& picture,
+                      const Limits& limits, const Control& control) {
   Encoded out;
   out.media_type = media_type_of(format);
   out.file_name = "wellspaced-" + result.operation + "." + std::string(name_of(format));
@@ -165,7 +166,8 @@ Encoded encode_result(const Result& result, Format format, std::string_view pict
       out.bytes = write_csv(values, result.points().size(), columns);
       break;
     case Format::svg:
-      out.bytes = write_svg(result, picture, limits, control);
+    case Format::png:
+      out.bytes = write_picture(result, format, picture, limits, control);
       break;
   }
   out.summary_line = summary_line(result);

@@ -27,7 +27,7 @@ struct Result {
   nlohmann::ordered_json
       summary;  ///< as users see it, all but the points; nothing in it depends on time, job or machine
   std::vector<ResultGroup> groups;  ///< one, unless several were compared
-  std::string picture;              ///< that the request asked for, or empty
+  nlohmann::ordered_json picture;   ///< that the request asked for; null if there is none
 
   /// The first set, of most results the only one.
   const PointSet& points() const { return groups.front().sets.front(); }
@@ -56,11 +56,12 @@ struct Encoded {
   std::string file_name;
 };
 
-/// Writes a result. `picture` (may be empty) wins over the request's own; only for svg.
+/// Writes a result. `picture`, as read_picture takes it, wins over the request's own unless it is null; only
+/// for svg and png.
 ///
 /// Guarantees: the same result and format give the same bytes.
-/// Errors: too_large for pictures of more points than the limit; those of render_svg.
-Encoded encode_result(const Result& result, Format format, std::string_view picture, const Limits& limits,
-                      const Control& control);
+/// Errors: those of read_picture and draw_result.
+Encoded encode_result(const Result& result, Format format, const nlohmann::json& picture,
+                      const Limits& limits, const Control& control);
 
 }  // namespace wellspaced

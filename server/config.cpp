@@ -91,7 +91,8 @@ void add_run(CLI::App& app, Invocation& i) {
                   "file for the result; its ending chooses the format; - writes standard output")
       ->required();
   run->add_option("--format", i.format, "json, npy, csv or svg, when the ending doesn't say");
-  run->add_option("--picture", i.picture, "voronoi, delaunay or points, for svg");
+  run->add_option("--picture", i.picture,
+                  "what an svg or png shows; its parameters are --query picture.NAME=VALUE");
   run->add_option("--content-type", i.content_type, "of the request, when the file's ending doesn't say");
   run->add_option("--query", i.query, "name=value, as in a URL, for requests that are point sets");
   run->callback([&i] { i.command = Invocation::Command::run; });

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "proto/execute.h"
+#include "proto/picture.h"
 #include "server/problem.h"
 
 namespace wellspaced {
@@ -75,8 +76,10 @@ bool write_file(const std::string& path, const std::string& bytes) {
 }
 
 std::string encoded_result(const Invocation& i, Format format, const std::string& body) {
-  const auto query = read_query(i);
-  if (!i.picture.empty()) require_picture(i.picture, "--picture");
+  auto query = read_query(i);
+  if (!i.picture.empty()) query.emplace_back("picture", i.picture);
+  const nlohmann::json picture = picture_of_query(query);
+  std::erase_if(query, [](const auto& parameter) { return is_picture_parameter(parameter.first); });
   const std::string content_type = content_type_of(i);
   const JobPoints no_jobs = [](const std::string&) -> PointSet {
     throw Error(ErrorCode::no_such_job,
@@ -84,7 +87,10 @@ std::string encoded_result(const Invocation& i, Format format, const std::string
   };
   const Request request = read_request({i.operation, content_type, body, query}, i.config.limits, no_jobs);
   Control control(i.config.threads);
-  return encode_result(execute(request, control), format, i.picture, i.config.limits, control).bytes;
+  if (is_picture(format))
+    require_drawable(request, read_picture(picture.is_null() ? request.picture : picture, "/picture"),
+                     i.config.limits);
+  return encode_result(execute(request, control), format, picture, i.config.limits, control).bytes;
 }
 
 }  // namespace

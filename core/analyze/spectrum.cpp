@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 
+#include "core/error.h"
 #include "core/math.h"
 
 namespace wellspaced {
@@ -38,6 +40,28 @@ Periodogram average(std::span<const Periodogram> sets) {
   const auto count = static_cast<double>(sets.size());
   mean.n /= count;
   for (double& power : mean.power) power /= count;
+  return mean;
+}
+
+double k_max_of(double n, double aspect, double range) {
+  return std::max(1.0, std::ceil(range * std::sqrt(n * aspect)));
+}
+
+Periodogram mean_periodogram(std::span<const PointSet> sets, double range, const Control& control) {
+  const Vec3 sides = sets.front().domain->box().size;
+  const double aspect = std::max(sides.x / sides.y, sides.y / sides.x);
+  const double k_max = k_max_of(static_cast<double>(sets.front().size()), aspect, range);
+  if (!(k_max <= largest_k_max))
+    throw Error(ErrorCode::invalid_parameters,
+                "this range goes beyond frequency " + std::to_string(largest_k_max) +
+                    " of a side, which is the most; ask for a smaller one",
+                "/range");
+  Periodogram mean = periodogram(sets.front(), static_cast<int>(k_max), control);
+  for (const PointSet& set : sets.subspan(1)) {
+    const Periodogram next = periodogram(set, static_cast<int>(k_max), control);
+    for (std::size_t i = 0; i < mean.power.size(); ++i) mean.power[i] += next.power[i];
+  }
+  for (double& power : mean.power) power /= static_cast<double>(sets.size());
   return mean;
 }
 

@@ -15,10 +15,11 @@ struct FormatRow {
   std::string_view name, media_type;
 };
 
-constexpr std::array<FormatRow, 4> format_rows = {{{Format::json, "json", "application/json"},
+constexpr std::array<FormatRow, 5> format_rows = {{{Format::json, "json", "application/json"},
                                                    {Format::npy, "npy", "application/x-npy"},
                                                    {Format::csv, "csv", "text/csv"},
-                                                   {Format::svg, "svg", "image/svg+xml"}}};
+                                                   {Format::svg, "svg", "image/svg+xml"},
+                                                   {Format::png, "png", "image/png"}}};
 
 std::string_view trim(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -95,7 +96,7 @@ std::optional<Format> format_named(std::string_view name, std::span<const Format
 Format input_format(std::string_view content_type) {
   const std::string_view type = take_until(content_type, ';');
   for (const FormatRow& row : format_rows)
-    if (row.format != Format::svg && same_word(row.media_type, type)) return row.format;
+    if (!is_picture(row.format) && same_word(row.media_type, type)) return row.format;
   throw Error(
       ErrorCode::unsupported_media_type,
       std::string(type.empty() ? "the request has no Content-Type" : "this Content-Type is not taken") +
@@ -123,15 +124,6 @@ Format negotiate(std::string_view format_parameter, std::string_view accept,
   return *best;
 }
 
-std::span<const std::string_view> pictures() {
-  static constexpr std::array<std::string_view, 3> names = {"voronoi", "delaunay", "points"};
-  return names;
-}
-
-void require_picture(std::string_view name, const std::string& where) {
-  const auto all = pictures();
-  if (std::find(all.begin(), all.end(), name) != all.end()) return;
-  throw Error(ErrorCode::invalid_parameters, "unknown picture; there are: voronoi, delaunay, points", where);
-}
+bool is_picture(Format format) { return format == Format::svg || format == Format::png; }
 
 }  // namespace wellspaced

@@ -11,7 +11,7 @@
 
 namespace wellspaced {
 
-enum class Format { json, npy, csv, svg };
+enum class Format { json, npy, csv, svg, png };
 
 /// "json", "npy", ...: as in ?format= and file extensions.
 std::string_view name_of(Format format);
@@ -27,9 +27,7 @@ Format input_format(std::string_view content_type);
 /// doesn't mind. Errors: not_acceptable listing `offered`.
 Format negotiate(std::string_view format_parameter, std::string_view accept, std::span<const Format> offered);
 
-/// The pictures that there are.
-std::span<const std::string_view> pictures();
-/// Errors: invalid_parameters at `where`, listing them.
-void require_picture(std::string_view name, const std::string& where);
+/// Whether it shows a result rather than holding it.
+bool is_picture(Format format);
 
 }  // namespace wellspaced

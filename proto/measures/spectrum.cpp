@@ -32,30 +32,6 @@ double range_of(const Arguments& arguments, double fallback) {
   return argument(arguments, "range").value_or(fallback);
 }
 
-/// Whole frequencies up to `range` sqrt(n / A) along both axes.
-double k_max_of(double n, double aspect, double range) {
-  return std::max(1.0, std::ceil(range * std::sqrt(n * aspect)));
-}
-
-Periodogram mean_periodogram(std::span<const PointSet> sets, double range, const Control& control) {
-  const Vec3 sides = sets.front().domain->box().size;
-  const double aspect = std::max(sides.x / sides.y, sides.y / sides.x);
-  const double k_max = k_max_of(static_cast<double>(sets.front().size()), aspect, range);
-  if (k_max > largest_k_max)
-    throw Error(ErrorCode::invalid_parameters,
-                "this is frequency " + std::to_string(static_cast<std::uint64_t>(k_max)) +
-                    " of a side, and " + std::to_string(largest_k_max) +
-                    " is the most; ask for a smaller range",
-                "/range");
-  Periodogram sum = periodogram(sets.front(), static_cast<int>(k_max), control);
-  for (const PointSet& set : sets.subspan(1)) {
-    const Periodogram next = periodogram(set, static_cast<int>(k_max), control);
-    for (std::size_t i = 0; i < sum.power.size(); ++i) sum.power[i] += next.power[i];
-  }
-  for (double& power : sum.power) power /= static_cast<double>(sets.size());
-  return sum;
-}
-
 /// Two periodograms for more than one set.
 Cost cost_of_transforms(const MeasureSize& size, double range) {
   const double k_max = k_max_of(size.n, size.aspect, range);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "proto/picture.h"
 #include "proto/result.h"
 #include "server/problem.h"
 
@@ -77,11 +78,8 @@ std::string query_value(const http::Request& request, const std::string& name) {
 
 Wanted read_wanted(const http::Request& request, const std::string& operation) {
   Wanted wanted;
-  const std::string picture = query_value(request, "picture");
-  if (!picture.empty()) {
-    require_picture(picture, "/picture");
-    wanted.picture = picture;
-  }
+  wanted.picture = picture_of_query(request.query);
+  read_picture(wanted.picture, "/picture");
   wanted.format = negotiate(query_value(request, "format"), request.header("Accept"), formats_of(operation));
   return wanted;
 }

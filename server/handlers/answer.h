@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "proto/formats/media.h"
 #include "server/context.h"
 #include "server/http/message.h"
@@ -13,7 +15,7 @@ namespace wellspaced {
 /// In which form a client wants a result.
 struct Wanted {
   Format format = Format::json;
-  std::string picture;  ///< empty: as the request says, or the default one
+  nlohmann::json picture;  ///< null: as the request says, or the default one
 };
 
 /// What `Prefer` says; unknown preferences are ignored (RFC 7240).

@@ -127,10 +127,18 @@ std::optional<std::int64_t> last_event_id(const http::Request& request) {
   return sequence;
 }
 
+/// Fit for a tag: letters, digits and few others.
+std::string tag_text(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '_';
+  return text;
+}
+
 /// Kept results never change, so a job's id and the form name the bytes.
 std::string entity_tag(const Job& job, const Wanted& wanted) {
   return "\"" + job.id + "-" + std::string(name_of(wanted.format)) +
-         (wanted.picture.empty() ? "" : "-" + wanted.picture) + "-" + std::string(version()) + "\"";
+         (wanted.picture.is_null() ? "" : "-" + tag_text(wanted.picture.dump())) + "-" +
+         std::string(version()) + "\"";
 }
 
 bool read_purge(const http::Request& request) {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "proto/execute.h"
+#include "proto/picture.h"
 #include "server/handlers/answer.h"
 #include "server/handlers/waiting.h"
 #include "server/problem.h"
@@ -18,7 +19,7 @@ using Query = std::vector<std::pair<std::string, std::string>>;
 Query request_query(const http::Request& request) {
   Query query;
   for (const auto& parameter : request.query)
-    if (parameter.first != "format" && parameter.first != "picture") query.push_back(parameter);
+    if (parameter.first != "format" && !is_picture_parameter(parameter.first)) query.push_back(parameter);
   return query;
 }
 
@@ -34,16 +35,6 @@ void require_sync(const Request& request, const Limits& limits) {
                   std::to_string(static_cast<int>(limits.sync_seconds)) +
                   " s that a synchronous answer may; send the header Prefer: respond-async and fetch the "
                   "result later");
-}
-
-/// Before the work; what is drawn in the end is checked again.
-void require_drawable(const Request& request, const Wanted& wanted, const Limits& limits) {
-  const double points = expected_points(request);
-  if (wanted.format != Format::svg || points <= static_cast<double>(limits.picture_points)) return;
-  throw Error(ErrorCode::too_large,
-              "a picture of about " + std::to_string(static_cast<std::uint64_t>(points)) +
-                  " points is above the limit of " + std::to_string(limits.picture_points) +
-                  "; ask for the points in another format and draw a part of them");
 }
 
 JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query,
@@ -104,7 +95,10 @@ http::Response post_operation(Context& context, const std::string& operation,
       return points_of_jobs(context)(id);
     };
     const Request request = read_request(raw, context.config.limits, job_points);
-    require_drawable(request, wanted, context.config.limits);
+    if (is_picture(wanted.format))
+      require_drawable(request,
+                       read_picture(wanted.picture.is_null() ? request.picture : wanted.picture, "/picture"),
+                       context.config.limits);
     if (!preference.respond_async) require_sync(request, context.config.limits);
 
     const bool attached = !preference.respond_async;

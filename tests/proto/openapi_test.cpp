@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/render/pictures/pictures.h"
 #include "proto/measures/measures.h"
 #include "proto/operations.h"
 #include "proto/result.h"
@@ -86,7 +87,10 @@ TEST(Openapi, ListsTheQueryOfRequestsWhosePointsAreNotJson) {
     EXPECT_EQ(optimize.count(name), 1u) << name;
   for (const char* name : {"measures", "format", "picture", "domain.type", "domain.width", "domain.height"})
     EXPECT_EQ(analyze.count(name), 1u) << name;
-  EXPECT_EQ(query_names("/v1/generate"), (std::set<std::string>{"format", "picture"}));
+  std::set<std::string> pictorial = {"format", "picture", "picture.scale"};
+  for (const Picture& picture : pictures())
+    for (const Parameter& p : picture.parameters) pictorial.insert("picture." + p.name);
+  EXPECT_EQ(query_names("/v1/generate"), pictorial);
 }
 
 TEST(Openapi, OffersEveryFormatOfEveryOperation) {

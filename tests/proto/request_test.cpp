@@ -58,6 +58,11 @@ TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
       {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type", "torus"},
       {"generate", R"({"count":10,"domain":{"depth":1}})", invalid, "/domain/depth", "height, type, width"},
       {"generate", R"({"count":10,"picture":"photo"})", invalid, "/picture", "voronoi, delaunay, points"},
+      {"generate", R"({"count":10,"picture":{"name":"voronoi","colour":"area"}})", invalid, "/picture/colour",
+       "color, name, scale"},
+      {"generate", R"({"count":10,"picture":{"name":"photo"}})", invalid, "/picture/name", "voronoi"},
+      {"generate", R"({"count":10,"picture":{"name":"voronoi","scale":9}})", invalid, "/picture/scale",
+       "[0.25, 4]"},
       {"optimize", R"({"points":{"generate":{"count":10}},"betta":0.8})", invalid, "/betta", "beta"},
       {"optimize", R"({"points":{"generate":{"count":10}},"method":"magic"})", invalid, "/method",
        "opt-beta-local"},
@@ -363,7 +368,7 @@ TEST(ReadRequest, FillsInTheDefaults) {
   EXPECT_EQ(generate.seed, 0u);
   EXPECT_EQ(generate.domain->area(), 1);
   EXPECT_THAT(generate.arguments, ElementsAre(std::pair<const std::string, double>("count", 1000)));
-  EXPECT_EQ(request.picture, "");
+  EXPECT_TRUE(request.picture.is_null());
   const auto optimize = read("optimize", R"({"points":{"generate":{"count":10}}})");
   EXPECT_EQ(std::get<OptimizeRequest>(optimize.operation).method->name, "opt-beta");
   EXPECT_TRUE(std::get<OptimizeRequest>(optimize.operation).arguments.empty());

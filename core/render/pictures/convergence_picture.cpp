@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/render/chart.h"
+#include "core/render/pictures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double width_px = 300;
+
+/// What is drawn of a sweep, in units of `scale`.
+struct Quantity {
+  const char* title;
+  double SweepRecord::*value;
+  bool length;  ///< shown in units of d_hex
+};
+
+constexpr Quantity quantities[] = {{"β = r_c / r_f", &SweepRecord::beta, false},
+                                   {"coverage radius r_c / d_{hex}", &SweepRecord::r_c, true},
+                                   {"conflict radius r_f / d_{hex}", &SweepRecord::r_f, true}};
+
+double unit_of(const Quantity& quantity, const PictureGroup& group) {
+  const PointSet& set = group.sets.front();
+  return quantity.length ? hexagonal_spacing(set.domain->area(), set.size()) : 1;
+}
+
+Series series_of(const PictureGroup& group, const Quantity& quantity, std::size_t number, bool named) {
+  Series series;
+  if (named) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
+  series.color = color_of_class(number);
+  series.dash_px = number < 7 ? 0 : 5;
+  constexpr std::size_t most_marks = 60;
+  series.marks = group.history.size() <= most_marks;
+  for (const SweepRecord& sweep : group.history) {
+    series.x.push_back(sweep.sweep);
+    series.y.push_back(sweep.*quantity.value / unit_of(quantity, group));
+  }
+  return series;
+}
+
+/// Of all values that will be shown, the finite ones.
+std::pair<double, double> limits_of(const std::vector<Series>& all, double last_sweep) {
+  double low = 1e300, high = -1e300;
+  for (const Series& s : all)
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      if (s.x[i] <= last_sweep && std::isfinite(s.y[i])) {
+        low = std::min(low, s.y[i]);
+        high = std::max(high, s.y[i]);
+      }
+  if (!(low < high)) return {low - 0.05, low + 0.05};
+  const double room = 0.06 * (high - low);
+  return {low - room, high + room};
+}
+
+Drawing chart_of(std::span<const PictureGroup> groups, const Quantity& quantity, double last_sweep,
+                 double size_px) {
+  Chart chart;
+  chart.width_px = size_px;
+  chart.height_px = 0.8 * size_px;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    chart.series.push_back(series_of(groups[g], quantity, g, groups.size() > 1));
+  const auto [low, high] = limits_of(chart.series, last_sweep);
+  chart.x = {0, last_sweep, "sweep"};
+  chart.y = {low, high, quantity.title};
+  return draw(std::move(chart));
+}
+
+Drawing make(std::span<const PictureGroup> groups, const Arguments& arguments, const Control&) {
+  double last_sweep = 1;
+  for (const PictureGroup& group : groups)
+    for (const SweepRecord& sweep : group.history)
+      last_sweep = std::max(last_sweep, static_cast<double>(sweep.sweep));
+  last_sweep = std::min(last_sweep, argument(arguments, "last_sweep").value_or(last_sweep));
+  const double size_px = size_px_of(arguments, width_px);
+  std::vector<Drawing> charts;
+  for (const Quantity& quantity : quantities)
+    charts.push_back(chart_of(groups, quantity, last_sweep, size_px));
+  Drawing sheet = grid_of(std::move(charts), 3, panel_gap_px);
+  sheet.title = "beta, coverage radius and conflict radius by sweep";
+  return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
+}
+
+}  // namespace
+
+Picture convergence_picture() {
+  Picture picture;
+  picture.name = "convergence";
+  picture.title = "Convergence";
+  picture.description =
+      "beta, r_c and r_f after each sweep of an optimizer; of several groups the first set of each.";
+  Parameter last;
+  last.name = "last_sweep";
+  last.type = Parameter::Type::integer;
+  last.description = "the axis ends here";
+  last.minimum = 1;
+  last.maximum = 1e9;
+  last.fallback = "where the longest ends";
+  picture.parameters = {last, size_parameter(width_px)};
+  picture.make = make;
+  picture.needs_history = true;
+  return picture;
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,40 @@
+#include "core/render/pictures/pictures.h"
+
+#include <cmath>
+
+#include "core/render/pictures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+const std::vector<Picture> picture_rows = {
+    voronoi_picture(),  delaunay_picture(),    points_picture(),
+    spectrum_picture(), periodogram_picture(), convergence_picture(),
+};
+
+}  // namespace
+
+std::span<const Picture> pictures() { return picture_rows; }
+
+Parameter size_parameter(double fallback_px) {
+  Parameter p;
+  p.name = "size_px";
+  p.type = Parameter::Type::integer;
+  p.description = "longer side of a panel";
+  p.unit = "pixels";
+  p.minimum = 50;
+  p.maximum = 4000;
+  p.fallback = std::to_string(static_cast<int>(fallback_px));
+  return p;
+}
+
+double size_px_of(const Arguments& arguments, double fallback_px) {
+  return argument(arguments, "size_px").value_or(fallback_px);
+}
+
+std::size_t columns_of(std::size_t panels) {
+  if (panels <= 3) return panels;
+  return static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(panels))));
+}
+
+}  // namespace wellspaced

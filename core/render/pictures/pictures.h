@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/control.h"
+#include "core/optimize/optimize.h"
+#include "core/point_set.h"
+#include "core/registry.h"
+#include "core/render/drawing.h"
+
+namespace wellspaced {
+
+/// Point sets of one process, over which pictures average; what they came out of, if it was an optimizer.
+struct PictureGroup {
+  std::string label;  ///< may be empty
+  std::span<const PointSet> sets;
+  std::vector<SweepRecord> history;
+};
+
+/// One kind of picture.
+struct Picture : Method {
+  /// Several groups are drawn side by side, or as several curves. Errors: with the parameter's pointer for a
+  /// bad one; those of the measure that is drawn; cancelled, deadline_exceeded. Determinism: the same bytes
+  /// on any number of threads.
+  Drawing (*make)(std::span<const PictureGroup>, const Arguments&, const Control&) = nullptr;
+  bool draws_each_point = false;
+  bool needs_torus = false;    ///< it means nothing on another domain
+  bool needs_history = false;  ///< of an optimizer
+};
+
+/// All pictures. One row each in pictures.cpp; the first is the default.
+std::span<const Picture> pictures();
+
+}  // namespace wellspaced

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "core/render/pictures/pictures.h"
+
+namespace wellspaced {
+
+// The registry's rows, in the files that draw them.
+
+Picture voronoi_picture();
+Picture delaunay_picture();
+Picture points_picture();
+Picture periodogram_picture();
+Picture spectrum_picture();
+Picture convergence_picture();
+
+// What they share.
+
+Parameter size_parameter(double fallback_px);
+double size_px_of(const Arguments& arguments, double fallback_px);
+
+/// What stands beside what.
+inline constexpr double panel_gap_px = 24;
+
+/// How many panels stand side by side, in pictures about as wide as they are high.
+std::size_t columns_of(std::size_t panels);
+
+}  // namespace wellspaced

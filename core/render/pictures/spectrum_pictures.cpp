@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/analyze/spectrum.h"
+#include "core/math.h"
+#include "core/render/chart.h"
+#include "core/render/pictures/rows.h"
+#include "core/render/raster.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px = 440;
+/// What the oscillations need; not worth it for the largest sets.
+constexpr double full_range = 6.5;
+constexpr std::size_t most_points_in_full = 200'000;
+
+Parameter range_parameter(double fallback) {
+  Parameter p;
+  p.name = "range";
+  p.description = "largest frequency that is shown, in units of sqrt(n / A)";
+  p.minimum = 0.5;
+  p.maximum = 20;
+  p.fallback = number_label(fallback, 3);
+  return p;
+}
+
+double range_of(const Arguments& arguments, double fallback) {
+  return argument(arguments, "range").value_or(fallback);
+}
+
+std::string sets_text(std::size_t sets) { return std::to_string(sets) + (sets == 1 ? " set" : " sets"); }
+
+// ---- the image
+
+/// The whole square of frequencies, ky upwards.
+Raster raster_of(const Periodogram& p) {
+  const auto side = static_cast<std::size_t>(2 * p.k_max + 1);
+  Raster raster{side, side, {}};
+  raster.values.reserve(side * side);
+  for (int ky = p.k_max; ky >= -p.k_max; --ky)
+    for (int kx = -p.k_max; kx <= p.k_max; ++kx) raster.values.push_back(p.at(kx, ky));
+  return raster;
+}
+
+/// The frequencies up to `range`, on as many pixels as there are or as the panel has.
+Raster shown(const Periodogram& p, double range, double size_px) {
+  const Raster all = raster_of(p);
+  const double middle = p.k_max + 0.5, unit = std::sqrt(p.n / (p.width * p.height));
+  const auto reach = [&](double side) { return std::min(middle, range * unit * side); };
+  const double x = reach(p.width), y = reach(p.height);
+  const auto pixels = [&](double half) {
+    return static_cast<std::size_t>(std::clamp(std::round(2 * half), 1.0, std::round(size_px)));
+  };
+  return resampled(all, middle - x, middle + x, middle - y, middle + y, pixels(x), pixels(y));
+}
+
+Drawing periodogram_panel(const PictureGroup& group, double range, double size_px, const Control& control) {
+  const Periodogram mean = mean_periodogram(group.sets, range, control);
+  const Raster raster = shown(mean, range, size_px);
+  const double whole = std::max(1.0, std::round(size_px / static_cast<double>(raster.columns)));
+  const bool square = raster.columns == raster.rows;
+  Chart chart;
+  chart.width_px = chart.height_px = square ? whole * static_cast<double>(raster.columns) : size_px;
+  chart.x = {-range, range, "k_x / √(n/A)"};
+  chart.y = {-range, range, "k_y / √(n/A)"};
+  chart.image = colored(raster, map_gray, 0, 3);
+  Drawing drawing = draw(std::move(chart));
+  drawing.title = "periodogram of " + std::to_string(group.sets.front().size()) + " points, " +
+                  sets_text(group.sets.size());
+  return with_caption(std::move(drawing), group.label);
+}
+
+Drawing make_periodogram(std::span<const PictureGroup> groups, const Arguments& arguments,
+                         const Control& control) {
+  const double range = range_of(arguments, image_range), size_px = size_px_of(arguments, image_px);
+  std::vector<Drawing> panels;
+  for (const PictureGroup& group : groups)
+    panels.push_back(periodogram_panel(group, range, size_px, control));
+  Drawing bar =
+      color_bar(map_gray, {0, 3, "power (white noise: 1)", {{0, "0"}, {1, "1"}, {2, "2"}, {3, "≥ 3"}}}, 220);
+  return with_margin(
+      stack_of({grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), std::move(bar)}, 8), 16);
+}
+
+// ---- the curves
+
+struct Curves {
+  Spectrum spectrum;
+  Series power, anisotropy;
+};
+
+Curves curves_of(const PictureGroup& group, double range, const Control& control) {
+  const bool full = group.sets.front().size() <= most_points_in_full;
+  const double computed = full ? std::max(range, full_range) : range;
+  Curves curves{
+      spectrum(mean_periodogram(group.sets, computed, control), static_cast<int>(group.sets.size())), {}, {}};
+  const Spectrum& s = curves.spectrum;
+  for (std::size_t r = 1; r < s.power.size(); ++r) {
+    const double frequency = static_cast<double>(r) / std::sqrt(s.n);
+    if (frequency > range * 1.02) break;
+    curves.power.x.push_back(frequency);
+    curves.power.y.push_back(s.power[r]);
+    curves.anisotropy.x.push_back(frequency);
+    curves.anisotropy.y.push_back(s.anisotropy_db[r]);
+  }
+  return curves;
+}
+
+double peak_of(const Spectrum& s) {
+  double peak = 0;
+  for (const double power : s.power)
+    if (std::isfinite(power)) peak = std::max(peak, power);
+  return peak;
+}
+
+double expected_db(const PictureGroup& group) {
+  return 0.0 - 10 * portable_log10(static_cast<double>(group.sets.size()));
+}
+
+Drawing spectrum_panel(const PictureGroup& group, Curves curves, double range, double high, double width_px) {
+  const Spectrum& s = curves.spectrum;
+  const double peak = peak_of(s);
+  Chart power;
+  power.width_px = width_px;
+  power.height_px = 0.48 * width_px;
+  power.x = {0, range, "frequency / √(n/A)"};
+  power.y = {0, high, "radial mean power"};
+  power.series = {std::move(curves.power)};
+  power.references = {{std::nullopt, 1, "white noise"}};
+  const std::optional<double> nyquist = effective_nyquist(s);
+  if (nyquist) power.references.push_back({*nyquist, std::nullopt, "ν_{eff}"});
+  Chart anisotropy;
+  anisotropy.width_px = width_px;
+  anisotropy.height_px = 0.3 * width_px;
+  anisotropy.x = power.x;
+  const double expected = expected_db(group);
+  const double lowest = 5 * std::floor(expected / 5) - 5;
+  anisotropy.y = {lowest, 10, "anisotropy, dB", {}};
+  for (double db = lowest; db <= 10; db += 5) anisotropy.y.ticks.push_back({db, number_label(db, 3)});
+  anisotropy.series = {std::move(curves.anisotropy)};
+  anisotropy.series[0].color = color_of_class(1);
+  anisotropy.references = {{std::nullopt, expected, ""}};  // -10 log10 K
+  std::vector<std::string> facts = {std::to_string(group.sets.front().size()) + " points",
+                                    "K = " + sets_text(group.sets.size())};
+  if (nyquist) facts.push_back("ν_{eff} = " + number_label(*nyquist, 3));
+  if (const auto omega = oscillations(s)) facts.push_back("Ω = " + number_label(*omega, 3));
+  facts.push_back("peak = " + number_label(peak, 3));
+  Drawing numbers = text_rows(std::move(facts), width_px + 60, 13);
+  Drawing panel = stack_of({draw(std::move(power)), draw(std::move(anisotropy)), std::move(numbers)}, 6);
+  panel.title =
+      "radial mean power and anisotropy of " + std::to_string(group.sets.front().size()) + " points";
+  return with_caption(std::move(panel), group.label);
+}
+
+Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arguments,
+                      const Control& control) {
+  const double range = range_of(arguments, curve_range), width_px = size_px_of(arguments, curves_px);
+  std::vector<Curves> curves;
+  std::vector<Series> powers;
+  for (const PictureGroup& group : groups) {
+    curves.push_back(curves_of(group, range, control));
+    powers.push_back(curves.back().power);
+  }
+  const double high = round_high(powers, 1.9, 8);
+  std::vector<Drawing> panels;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    panels.push_back(spectrum_panel(groups[g], std::move(curves[g]), range, high, width_px));
+  return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
+}
+
+}  // namespace
+
+Picture periodogram_picture() {
+  Picture picture;
+  picture.name = "periodogram";
+  picture.title = "Periodogram";
+  picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
+  picture.parameters = {range_parameter(image_range), size_parameter(image_px)};
+  picture.make = make_periodogram;
+  picture.needs_torus = true;
+  return picture;
+}
+
+Picture spectrum_picture() {
+  Picture picture;
+  picture.name = "spectrum";
+  picture.title = "Radial mean power and anisotropy";
+  picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
+  picture.parameters = {range_parameter(curve_range), size_parameter(curves_px)};
+  picture.make = make_spectrum;
+  picture.needs_torus = true;
+  return picture;
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/control.h"
+#include "core/registry.h"
+#include "core/render/pictures/pictures.h"
+#include "proto/limits.h"
+#include "proto/request.h"
+#include "proto/result.h"
+
+namespace wellspaced {
+
+/// A picture that is asked for: "voronoi", or {"name": "voronoi", "color": "valence", "scale": 2}.
+struct PictureCall {
+  const Picture* picture = nullptr;
+  Arguments arguments;
+  double scale = 1;  ///< pixels of a PNG for each of the drawing's
+};
+
+/// Null and "" stand for the first of all pictures. Errors: invalid_parameters with the field's pointer.
+PictureCall read_picture(const nlohmann::json& value, const std::string& where);
+
+/// picture=voronoi and picture.color=valence of a query, as in a JSON body; null if there is none of them.
+/// Errors: invalid_parameters for one that is given twice.
+nlohmann::json picture_of_query(const std::vector<std::pair<std::string, std::string>>& query);
+/// Whether a parameter of a query is one of those.
+bool is_picture_parameter(std::string_view name);
+
+/// Before the work. Errors at /picture: invalid_parameters if what is asked for won't have what the picture
+/// shows; too_large for more points than the limit.
+void require_drawable(const Request& request, const PictureCall& call, const Limits& limits);
+
+/// Draws a result. Errors: those of require_drawable and of the picture.
+Drawing draw_result(const Result& result, const PictureCall& call, const Limits& limits,
+                    const Control& control);
+
+/// JSON Schema of a picture in a request.
+nlohmann::ordered_json picture_schema();
+
+}  // namespace wellspaced

@@ -1,0 +1,139 @@
+#include "proto/picture.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/png_image.h"
+#include "tests/support/proto_requests.h"
+#include "tests/support/svg_text.h"
+
+namespace wellspaced {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using testing::read;
+using testing::run;
+
+void expect_refused(const std::function<void()>& action, ErrorCode code, const char* where,
+                    const char* part) {
+  try {
+    action();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(code)) << error.what();
+    EXPECT_EQ(error.where(), where) << error.what();
+    EXPECT_THAT(error.what(), HasSubstr(part));
+  }
+}
+
+TEST(ReadPicture, TakesANameOrAnObject) {
+  EXPECT_EQ(read_picture(json(), "/picture").picture->name, "voronoi");
+  EXPECT_EQ(read_picture("", "/picture").picture->name, "voronoi");
+  EXPECT_EQ(read_picture("points", "/picture").picture->name, "points");
+  const PictureCall call = read_picture({{"name", "delaunay"}, {"color", "area"}, {"scale", 2}}, "/picture");
+  EXPECT_EQ(call.picture->name, "delaunay");
+  EXPECT_EQ(call.scale, 2);
+  EXPECT_EQ(argument(call.arguments, "color"), 2);
+  expect_refused([] { read_picture(7, "/picture"); }, ErrorCode::invalid_parameters, "/picture",
+                 "expected a string");
+  expect_refused([] { read_picture("Voronoi", "/picture"); }, ErrorCode::invalid_parameters, "/picture",
+                 "voronoi");
+}
+
+TEST(PictureOfQuery, GathersItsParameters) {
+  using Query = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_TRUE(picture_of_query({{"format", "svg"}}).is_null());
+  EXPECT_EQ(picture_of_query({{"picture", "points"}}), "points");
+  EXPECT_EQ(picture_of_query({{"picture", "points"}, {"picture.scale", "2"}, {"picture.color", "area"}}),
+            (json{{"name", "points"}, {"scale", 2}, {"color", "area"}}));
+  for (const Query& twice :
+       {Query{{"picture", "a"}, {"picture", "b"}}, Query{{"picture.x", "1"}, {"picture.x", "1"}}})
+    expect_refused([&] { picture_of_query(twice); }, ErrorCode::invalid_parameters,
+                   twice[0].first == "picture" ? "/picture" : "/picture.x", "twice");
+  expect_refused(
+      [] {
+        picture_of_query({{"picture", ""}});
+      },
+      ErrorCode::invalid_parameters, "/picture", "empty");
+}
+
+/// A result for each kind of groups, all with what every picture needs.
+std::vector<Result> results() {
+  const std::string optimized = R"({"optimize":{"points":{"generate":{"count":60}},"beta":0.85}})";
+  return {
+      run("optimize", R"({"points":{"generate":{"count":60}},"beta":0.85})"),
+      run("analyze", R"({"points":)" + optimized + R"(,"seeds":3})"),
+      run("analyze", R"({"compare":[{"label":"a","points":)" + optimized + R"(},{"label":"b<","points":)" +
+                         optimized + R"(,"seeds":2},{"points":{"optimize":{"points":{"generate":{"count":200,
+                             "domain":{"width":3}}},"method":"cvt","max_sweeps":3}}}]})")};
+}
+
+std::string without_images(std::string text) {
+  for (auto at = text.find("base64,"); at != std::string::npos; at = text.find("base64,", at))
+    text.erase(at, text.find('"', at) - at);
+  return text;
+}
+
+TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
+  for (const Result& result : results())
+    for (const Picture& picture : pictures()) {
+      SCOPED_TRACE(result.operation + " " + picture.name);
+      const PictureCall call = read_picture(picture.name, "/picture");
+      const auto svg = [&](unsigned threads) {
+        return to_svg(draw_result(result, call, {}, Control(threads)));
+      };
+      const std::string text = svg(1);
+      EXPECT_EQ(testing::why_malformed(text), "");
+      EXPECT_TRUE(text == svg(3));
+      const std::string plain = without_images(text);
+      for (const char* bad : {"nan", "inf\"", "inf ", "\"\"", "-0 "})
+        EXPECT_EQ(plain.find(bad), std::string::npos) << bad;
+      const auto image = testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5));
+      EXPECT_GT(image.width, 50u);
+      EXPECT_GT(image.height, 50u);
+    }
+}
+
+TEST(RequireDrawable, RefusesConvergenceOfWhatWasNotOptimized) {
+  const PictureCall convergence = read_picture("convergence", "/picture");
+  const auto check = [&](const char* operation, const std::string& body) {
+    return [&convergence, operation, body] { require_drawable(read(operation, body), convergence, {}); };
+  };
+  const char* const generate = R"({"count":30})";
+  expect_refused(check("generate", generate), ErrorCode::invalid_parameters, "/picture", "optimize");
+  expect_refused(check("analyze", R"({"points":{"generate":{"count":30}}})"), ErrorCode::invalid_parameters,
+                 "/picture", "ask for it with optimize");
+  EXPECT_NO_THROW(check("optimize", R"({"points":{"generate":{"count":30}}})")());
+  EXPECT_NO_THROW(check("analyze", R"({"points":{"optimize":{"points":{"generate":{"count":30}}}}})")());
+  expect_refused([&] { draw_result(run("generate", generate), convergence, {}, Control()); },
+                 ErrorCode::invalid_parameters, "/picture", "optimize");
+}
+
+TEST(RequireDrawable, LimitsThePointsThatAreDrawn) {
+  Limits limits;
+  limits.picture_points = 100;
+  const auto request = [](int count) {
+    return read("generate", R"({"count":)" + std::to_string(count) + "}");
+  };
+  const PictureCall voronoi = read_picture("voronoi", ""), spectrum = read_picture("spectrum", "");
+  EXPECT_NO_THROW(require_drawable(request(100), voronoi, limits));
+  expect_refused([&] { require_drawable(request(101), voronoi, limits); }, ErrorCode::too_large, "/picture",
+                 "limit of 100");
+  EXPECT_NO_THROW(require_drawable(request(1000), spectrum, limits));
+  expect_refused([&] { require_drawable(request(1001), spectrum, limits); }, ErrorCode::too_large, "/picture",
+                 "limit of 1000");
+}
+
+TEST(PictureSchema, NamesEveryPictureAndParameter) {
+  const auto schema = picture_schema();
+  ASSERT_EQ(schema["oneOf"].size(), pictures().size() + 1);
+  for (std::size_t k = 0; k < pictures().size(); ++k) {
+    const Picture& picture = pictures()[k];
+    EXPECT_EQ(schema["oneOf"][0]["enum"][k], picture.name);
+    for (const Parameter& p : picture.parameters)
+      EXPECT_TRUE(schema["oneOf"][k + 1]["properties"].contains(p.name)) << p.name;
+  }
+}
+
+}  // namespace
+}  // namespace wellspaced
