@@ -22,15 +22,17 @@ struct Discrepancy {
 
 /// Guarantees
 /// 1. star is exact up to 1e-15, whatever coordinates coincide.
-/// 2. l2_star and l2_periodic are exact up to rounding: |error of their square| <= 1e-17.
-/// All are roots where there are squares to sum. scipy.stats.qmc.discrepancy returns the square of
-/// l2_periodic for method "WD", but l2_star itself for "L2-star". Requires: finite points in their domain, a
-/// torus. Errors: degenerate_input without points; cancelled, deadline_exceeded. Cost: O(n log n), star O(n
-/// log^2 n) at worst; 2 us and 250 bytes a point at a million. The two sides of star and both L2
-/// discrepancies are found at the same time on up to three threads. Determinism: the same bits on any number
-/// of threads. Reference: Niederreiter, "Discrepancy and Convex Programming", 1972 (star); Warnock,
-/// "Computational investigations of low-discrepancy point sets", 1972 (l2_star); Hickernell, "Lattice rules:
-/// how well do they measure up?", 1998 (l2_periodic).
+/// 2. The squares of l2_star and l2_periodic are exact up to 1e-17 and the last bit.
+///
+/// Both are roots. scipy.stats.qmc.discrepancy returns the square of l2_periodic for method "WD", but l2_star
+/// itself for "L2-star".
+///
+/// Requires: finite points in their domain, a torus. Errors: degenerate_input without points; cancelled,
+/// deadline_exceeded. Cost: O(n log n), star O(n log^3 n) at worst; 3 us and 260 bytes a point at a million;
+/// on up to three threads. Determinism: the same bits on any number of threads. Reference: Niederreiter,
+/// "Discrepancy and Convex Programming", 1972 (star); Warnock, "Computational investigations of
+/// low-discrepancy point sets", 1972 (l2_star); Hickernell, "Lattice rules: how well do they measure up?",
+/// 1998 (l2_periodic).
 Discrepancy discrepancy(const PointSet& points, const Control& control);
 
 }  // namespace wellspaced
