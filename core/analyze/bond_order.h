@@ -26,6 +26,7 @@ struct BondOrder {
 ///
 /// Guarantees: sums over the stars of visit_stars, periodic images included. Lattices with cocircular
 /// neighbors, such as the square one, have no unique triangulation and so no unique bond order.
+/// Requires: a set for which measure_spacing does not refuse the result, as it does nearly collinear ones.
 /// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
 /// O(n log n), about 0.25 us a point for even sets; 40 bytes a point, besides the stars. Determinism: the
 /// same bits on any number of threads; powers of directions in plain arithmetic, no angles. Reference:

@@ -24,7 +24,7 @@ struct Distributions {
 /// Guarantees: n samples, 3 n edges and 6 n angles, those of the exact Delaunay triangulation up to 1e-12
 /// relative; triangles between periodic images count, once each. Where neighbors are cocircular, as in the
 /// square lattice, the triangulation is not unique, and edges and angles may be fewer. Requires: a set for
-/// which measure_spacing does not refuse the result.
+/// which measure_spacing does not refuse the result, as it does nearly collinear ones.
 /// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
 /// O(n log n), about 0.5 us a point for even sets; 100 bytes a point, besides the stars. Determinism: the
 /// same bits on any number of threads. Reference: Ebeida et al. 2013, section 6, for the measures.

@@ -66,7 +66,7 @@ struct Moments {
 /// Moments of the samples above a level (a binary indexed tree, from the top down).
 class Above {
  public:
-  explicit Above(std::size_t levels) : tree_(levels + 1, Moments<2>{}) {}
+  Above(std::size_t levels, const Control& control) : tree_(filled(levels + 1, Moments<2>{}, control)) {}
 
   void add(std::size_t level, const Moments<2>& sample) {
     for (std::size_t k = tree_.size() - 1 - level; k < tree_.size(); k += k & (~k + 1)) tree_[k] += sample;
@@ -128,7 +128,7 @@ struct Pairs {
 
 L2Discrepancies l2_discrepancies(const RankedPoints& points, const Control& control) {
   const auto n = static_cast<long double>(points.size());
-  Above tree(points.levels.size());
+  Above tree(points.levels.size(), control);
   Moments<3> all;
   FixedSum star, periodic;
   for (std::size_t i = 0; i < points.size(); ++i) {

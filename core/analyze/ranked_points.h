@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,5 +22,18 @@ struct RankedPoints {
 
 /// Samples of equal x follow by y. Errors: cancelled, deadline_exceeded. Cost: O(n log n).
 RankedPoints rank_points(const PointSet& points, const Control& control);
+
+/// So many elements of that value. Errors: cancelled, deadline_exceeded.
+template <class T>
+LargeVector<T> filled(std::size_t count, const T& value, const Control& control) {
+  constexpr std::size_t step = 1 << 15;
+  LargeVector<T> elements;
+  elements.reserve(count);
+  while (elements.size() < count) {
+    control.check();
+    elements.resize(std::min(count, elements.size() + step), value);
+  }
+  return elements;
+}
 
 }  // namespace wellspaced

@@ -10,6 +10,7 @@ namespace wellspaced {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr std::size_t between_checks = 1 << 12;
 
 /// For each level y a line: the excess of the box up to (x, y) as x grows, while samples enter it. Keeps
 /// which one is the highest. A tree over the levels: each node knows the best line below it, and up to which
@@ -17,16 +18,19 @@ constexpr double never = std::numeric_limits<double>::infinity();
 class Tournament {
  public:
   /// At x = 0, no sample entered.
-  Tournament(const RankedPoints& points, BoxSides sides)
+  Tournament(const RankedPoints& points, BoxSides sides, const Control& control)
       : open_(sides == BoxSides::open),
         n_(static_cast<double>(points.size())),
         levels_(points.levels.size() + 1),
         leaves_(std::bit_ceil(levels_)),
-        nodes_(2 * leaves_, Node{}) {
+        nodes_(filled(2 * leaves_, Node{}, control)) {
     // The box may reach to the far side. Leaves beyond repeat that level, and never win against it.
     for (std::size_t k = 0; k < leaves_; ++k)
       nodes_[leaves_ + k] = {k < points.levels.size() ? points.levels[k] : 1.0, 0, 0, never};
-    for (std::size_t k = leaves_ - 1; k > 0; --k) decide(k, 0);
+    for (std::size_t k = leaves_ - 1; k > 0; --k) {
+      if (k % between_checks == 0) control.check();
+      decide(k, 0);
+    }
   }
 
   /// Moves on to x, which never falls.
@@ -89,9 +93,8 @@ class Tournament {
 }  // namespace
 
 double star_discrepancy(const RankedPoints& points, BoxSides sides, const Control& control) {
-  constexpr std::size_t between_checks = 1 << 10;
   const bool open = sides == BoxSides::open;
-  Tournament tournament(points, sides);
+  Tournament tournament(points, sides, control);
   double highest = 0;
   for (std::size_t i = 0; i < points.size();) {
     const double x = points.x[i];
