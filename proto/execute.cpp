@@ -194,7 +194,7 @@ Made make(const PointSource& source, Control& control) {
 ordered_json measure(const MeasureCall& call, const SourceGroup& group, std::span<const PointSet> sets,
                      const Control& control) {
   try {
-    return call.measure->run(sets, call.arguments, control);
+    return call.measure->run({sets, group.sizing.sizing.get()}, call.arguments, control);
   } catch (const Error& error) {
     throw error.within(error.where().empty() ? group.pointer : call.pointer);
   }
@@ -202,7 +202,7 @@ ordered_json measure(const MeasureCall& call, const SourceGroup& group, std::spa
 
 /// The sets of a group, and what each came out of.
 std::pair<ResultGroup, ordered_json> make_group(const SourceGroup& group, Control& control) {
-  ResultGroup made{group.label, {}};
+  ResultGroup made{group.label, {}, group.sizing};
   ordered_json optimized = ordered_json::array();
   const auto count = static_cast<double>(group.sets.size());
   for (const PointSource& source : group.sets) {
@@ -226,6 +226,10 @@ ResultGroup analyze(const AnalyzeRequest& request, const SourceGroup& group, Con
   auto [made, optimized] = make_group(group, first);
   summary["n"] = made.sets.front().size();
   if (made.sets.size() > 1) summary["sets"] = made.sets.size();
+  if (group.sizing.sizing != nullptr) {
+    summary["sizing"] = group.sizing.json;
+    summary["sizing"]["lipschitz"] = group.sizing.sizing->lipschitz();
+  }
   for (const MeasureCall& call : request.measures)
     summary[call.measure->name] = measure(call, group, made.sets, second);
   if (!optimized.empty()) summary["optimized"] = std::move(optimized);

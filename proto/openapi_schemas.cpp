@@ -6,6 +6,7 @@
 #include "proto/operations.h"
 #include "proto/picture.h"
 #include "proto/result.h"
+#include "proto/sizing.h"
 
 namespace wellspaced {
 namespace {
@@ -147,6 +148,7 @@ void add_results(ordered_json& schemas) {
 ordered_json group_result() {
   ordered_json group = common_result();
   group["sets"] = typed("integer", "number of point sets, where they are several");
+  group["sizing"] = typed("object", "as asked for, with its Lipschitz constant");
   group["seed"] = typed("integer", "of the first set, where they were generated");
   group["optimized"] = {{"type", "array"},
                         {"description", "what the optimizer said of each set that came out of one"},
@@ -203,7 +205,8 @@ ordered_json group_schema() {
             {"items", schema_reference("PointSource")},
             {"minItems", 1},
             {"maxItems", 1000}}},
-          {"domain", schema_reference("Domain")}};
+          {"domain", schema_reference("Domain")},
+          {"sizing", schema_reference("Sizing")}};
 }
 
 void add_analyze_request(ordered_json& schemas) {
@@ -281,6 +284,7 @@ ordered_json openapi_schemas() {
   schemas["Domain"] = domain_schema();
   schemas["Points"] = points_schema();
   schemas["Picture"] = picture_schema();
+  schemas["Sizing"] = sizing_schema();
   const ordered_json seed = {
       {"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
   const ordered_json made = {{"domain", schema_reference("Domain")}, {"seed", seed}};

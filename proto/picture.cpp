@@ -143,7 +143,7 @@ Drawing draw_result(const Result& result, const PictureCall& call, const Limits&
                     const Control& control) {
   std::vector<PictureGroup> groups;
   for (const ResultGroup& group : result.groups) {
-    groups.push_back({group.label, group.sets, history_of(result, groups.size())});
+    groups.push_back({group.label, group.sets, history_of(result, groups.size()), group.sizing.sizing.get()});
     require_few(static_cast<double>(group.sets.front().size()), *call.picture, limits);
     require_history(!groups.back().history.empty(), *call.picture);
     require_torus(*group.sets.front().domain, *call.picture);

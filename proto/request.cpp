@@ -16,6 +16,9 @@ namespace {
 
 using nlohmann::json;
 
+/// What says which sets are averaged over.
+constexpr const char* group_fields[] = {"points", "sets", "seeds", "domain", "sizing"};
+
 /// "spacing" or {"measure": "spectrum", "range": 2.5}
 MeasureCall measure_call(const json& value, const std::string& where) {
   if (!value.is_string() && !value.is_object())
@@ -76,7 +79,7 @@ std::vector<SourceGroup> compared_groups(const json& value, SourceReader& reader
   std::vector<SourceGroup> groups;
   for (std::size_t g = 0; g < value.size(); ++g) {
     Fields fields(value[g], "/compare/" + std::to_string(g));
-    for (const char* name : {"points", "sets", "seeds", "domain"}) fields.find(name);
+    for (const char* name : group_fields) fields.find(name);
     const std::string label = fields.text("label").value_or("");
     constexpr std::size_t longest_label = 60;
     if (label.size() > longest_label)
@@ -103,12 +106,12 @@ void require_total(const std::vector<SourceGroup>& groups, std::uint64_t limit) 
 AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limits& limits) {
   AnalyzeRequest request;
   request.measures = measures_field(fields);
-  for (const char* name : {"points", "sets", "seeds", "domain", "compare"}) fields.find(name);
-  fields.refuse_unknown();
+  for (const char* name : group_fields) fields.find(name);
   const json* compared = fields.find("compare");
+  fields.refuse_unknown();
   request.compares = compared != nullptr;
   if (compared != nullptr) {
-    for (const char* name : {"points", "sets", "seeds", "domain"})
+    for (const char* name : group_fields)
       if (fields.find(name) != nullptr)
         throw Error(ErrorCode::invalid_parameters, "what is compared brings its own points; put this there",
                     fields.pointer_to(name));

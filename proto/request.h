@@ -12,6 +12,7 @@
 #include "proto/document.h"
 #include "proto/limits.h"
 #include "proto/measures/measures.h"
+#include "proto/sizing.h"
 
 namespace wellspaced {
 
@@ -44,6 +45,7 @@ struct SourceGroup {
   std::string label;  ///< for pictures; may be empty
   std::vector<PointSource> sets;
   std::string pointer;  ///< where they stand in their request: "/points", "/sets"
+  SizingChoice sizing;  ///< that they were made for, if it was told
 };
 
 struct MeasureCall {

@@ -74,7 +74,9 @@ Result load(const ordered_json& head, std::string_view data) {
   Result result{head.at("operation"), head.at("summary"), {}, head.at("picture")};
   for (const ordered_json& group : groups_of(head, data)) {
     const auto domain = read_domain(nlohmann::json(group.at("domain")), "");
-    result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data)});
+    result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data), {}});
+    if (group.contains("sizing") && !group["sizing"].is_null())
+      result.groups.back().sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
   }
   if (result.groups.empty() || !data.empty()) throw unreadable();
   return result;
@@ -118,7 +120,8 @@ std::string store_result(const Result& result) {
     }
     head["groups"].push_back({{"label", group.label},
                               {"domain", domain_to_json(*group.sets.front().domain)},
-                              {"sizes", std::move(sizes)}});
+                              {"sizes", std::move(sizes)},
+                              {"sizing", group.sizing.json}});
   }
   std::string bytes = dump(head) + "\n";
   bytes.reserve(bytes.size() + numbers * sizeof(double));

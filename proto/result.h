@@ -12,6 +12,7 @@
 #include "core/point_set.h"
 #include "proto/formats/media.h"
 #include "proto/limits.h"
+#include "proto/sizing.h"
 
 namespace wellspaced {
 
@@ -19,6 +20,7 @@ namespace wellspaced {
 struct ResultGroup {
   std::string label;           ///< for pictures; may be empty
   std::vector<PointSet> sets;  ///< at least one, on one domain
+  SizingChoice sizing = {};    ///< that they were made for, if it was told
 };
 
 /// What an operation gives: a summary, and the points that it made or looked at.

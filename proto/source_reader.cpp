@@ -184,6 +184,13 @@ PointSource SourceReader::points(Fields& fields) {
 }
 
 SourceGroup SourceReader::group(Fields& fields) {
+  SourceGroup group = sets(fields);
+  if (const json* sizing = fields.find("sizing"))
+    group.sizing = read_sizing(*sizing, domain_of(group.sets.front()), fields.pointer_to("sizing"));
+  return group;
+}
+
+SourceGroup SourceReader::sets(Fields& fields) {
   constexpr std::uint64_t most_sets = 1000;
   SourceGroup group;
   const json* sets = fields.find("sets");

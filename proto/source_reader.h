@@ -27,10 +27,11 @@ class SourceReader {
 
   /// The one source at the field "points".
   PointSource points(Fields& fields);
-  /// The fields "points", with "seeds" for several of the kind, or "sets".
+  /// The fields "points", with "seeds" for several of the kind, or "sets"; and "sizing".
   SourceGroup group(Fields& fields);
 
  private:
+  SourceGroup sets(Fields& fields);
   PointSet inline_points(std::shared_ptr<const Domain> domain, const std::string& pointer);
   PointSet job_points(Fields& fields) const;
   PointSource source(const nlohmann::json& value, const std::string& pointer,

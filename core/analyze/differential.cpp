@@ -25,8 +25,8 @@ constexpr double hexagonal_density = 2 / 1.7320508075688772;
 class PairRaster {
  public:
   explicit PairRaster(const DifferentialOptions& options)
-      : size_(static_cast<std::size_t>(options.size)),
-        step_(2 * options.reach / options.size),
+      : size_(static_cast<std::size_t>(options.pixels)),
+        step_(2 * options.reach / options.pixels),
         fine_(static_cast<std::size_t>(std::ceil(places_a_sigma * step_ / options.sigma))),
         spacing_(step_ / static_cast<double>(fine_)),
         weights_(kernel(options.sigma / spacing_)),
@@ -185,8 +185,8 @@ void require_options(const DifferentialOptions& options) {
   };
   if (!(options.reach >= 1 && options.reach <= 16))
     refuse("the reach must be a number from 1 to 16", "/reach");
-  if (options.size < 3 || options.size > 1025 || options.size % 2 == 0)
-    refuse("the size must be an odd number of pixels from 3 to 1025", "/size");
+  if (options.pixels < 3 || options.pixels > 1025 || options.pixels % 2 == 0)
+    refuse("the size must be an odd number of pixels from 3 to 1025", "/pixels");
   if (!(options.sigma >= options.reach / 256 && options.sigma <= options.reach / 4))
     refuse("sigma must be from a 256th to a fourth of the reach", "/sigma");
 }
@@ -249,7 +249,7 @@ DifferentialDomain differential_domain(const PointSet& points, std::span<const d
   PairRaster raster(options);
   PairFinder(points, radii, control).count(raster);
   const auto n = static_cast<double>(points.size());
-  DifferentialDomain result{n,  1, options.size, options.reach, options.sigma, raster.blurred(control), {},
+  DifferentialDomain result{n,  1, options.pixels, options.reach, options.sigma, raster.blurred(control), {},
                             {}, {}};
   for (double& density : result.density) density /= (n - 1) * hexagonal_density;
   measure_rings(result);

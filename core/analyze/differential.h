@@ -12,7 +12,7 @@ namespace wellspaced {
 /// Lengths are in d_hex of the equivalent uniform set, see `differential_domain`.
 struct DifferentialOptions {
   double reach = 4;  ///< the image covers [-reach, reach]^2; 1 to 16
-  int size = 257;    ///< pixels across, odd, 3 to 1025
+  int pixels = 257;  ///< across, odd, 3 to 1025
   /// Standard deviation of the kernel, reach / 256 to reach / 4. The default is a 15th of the hole's radius
   /// in maximal Poisson-disk sets (rho = .777), so that its edge stays sharp, and 1.6 of the default pixels,
   /// which show it without aliasing. White noise of 1000 points then scatters by .17 a pixel.
@@ -69,7 +69,7 @@ struct DifferentialDomain {
 /// variance too, on average over where differences lie between pixels.
 /// 2. The density is symmetric: that at q is that at -q.
 /// Requires: a torus; finite points in it. Errors: invalid_parameters at /radii if there are not as many as
-/// points, at /radii/17 for one that is not positive and finite, at /reach, /size, /sigma; degenerate_input
+/// points, at /radii/17 for one that is not positive and finite, at /reach, /pixels, /sigma; degenerate_input
 /// for less than 2 points; cancelled, deadline_exceeded. Cost: O(n reach^2) where radii follow the density,
 /// 40 ns an ordered pair: .4 s for 100,000 points; always about as many steps as pairs within reach, whatever
 /// the radii. 5 MB by default, and at most 100 MB, besides the points. Determinism: the same bits on any

@@ -30,22 +30,22 @@ struct Raster {
   double from_border(Vec2 p) const { return std::min({p.x, width - p.x, p.y, height - p.y}); }
 };
 
-/// Errors: invalid_parameters at /size_px.
-Raster raster(const Domain& domain, std::size_t n, const std::optional<int>& size_px) {
+/// Errors: invalid_parameters at /columns.
+Raster raster(const Domain& domain, std::size_t n, const std::optional<int>& wanted) {
   const Vec3 sides = domain.box().size;
   const auto most = static_cast<double>(ZonePlateOptions::largest_pixels);
   double columns = 0;
-  if (size_px) {
-    columns = *size_px;
+  if (wanted) {
+    columns = *wanted;
   } else {
-    const double allowed = std::min<double>(ZonePlateOptions::largest_size_px,
-                                            std::floor(std::sqrt(most * sides.x / sides.y)) - 1);
+    const double allowed =
+        std::min<double>(ZonePlateOptions::most_columns, std::floor(std::sqrt(most * sides.x / sides.y)) - 1);
     columns = std::clamp(std::floor(sides.x / mean_spacing(domain, n) + 0.5), 1.0, std::max(1.0, allowed));
   }
   const double rows = std::max(1.0, std::floor(columns * sides.y / sides.x + 0.5));
   if (columns * rows > most)
     throw Error(ErrorCode::invalid_parameters,
-                "that many pixels across make more than 2^24 of them; ask for fewer", "/size_px");
+                "that many pixels across make more than 2^24 of them; ask for fewer", "/columns");
   return {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), sides.x, sides.y};
 }
 
@@ -53,8 +53,8 @@ void require_options(const ZonePlateOptions& options) {
   const auto refuse = [](const char* message, const char* where) {
     throw Error(ErrorCode::invalid_parameters, message, where);
   };
-  if (options.size_px && (*options.size_px < 1 || *options.size_px > ZonePlateOptions::largest_size_px))
-    refuse("the image must be 1 to 4096 pixels wide", "/size_px");
+  if (options.columns && (*options.columns < 1 || *options.columns > ZonePlateOptions::most_columns))
+    refuse("the image must be 1 to 4096 pixels wide", "/columns");
   if (!(options.frequency >= 0 && options.frequency <= 16))
     refuse("the frequency must be a number from 0 to 16", "/frequency");
   if (!(options.sigma >= 0.01 && options.sigma <= 8))
@@ -133,7 +133,7 @@ ZonePlate zone_plate(const PointSet& points, const ZonePlateOptions& options, co
   require_options(options);
   if (points.size() == 0) throw Error(ErrorCode::degenerate_input, "no points show nothing of a zone plate");
   const Domain& domain = *points.domain;
-  const Raster image = raster(domain, points.size(), options.size_px);
+  const Raster image = raster(domain, points.size(), options.columns);
   const ZonePlateField field = zone_plate_field(domain, points.size(), options.frequency);
   const double sigma = options.sigma * mean_spacing(domain, points.size());
   const double inner = cut * sigma * (1 - 1e-9);  // from a border

@@ -30,16 +30,16 @@ struct ZonePlateField {
 
 /// Lengths are in units of the mean sample spacing h = sqrt(area / n).
 struct ZonePlateOptions {
-  /// Pixels across, 1 to largest_size_px, at most largest_pixels in all; nothing: width / h of them, one a
+  /// Pixels across, 1 to most_columns, at most largest_pixels in all; nothing: width / h of them, one a
   /// sample, and as many as are allowed at most.
-  std::optional<int> size_px;
+  std::optional<int> columns;
   /// The field's frequency at a width's distance from the corner, cycles a spacing, 0 to 16. A square grid
   /// can carry .5: with that its limit is reached at the end of the lower edge, and exceeded towards the
   /// opposite corner.
   double frequency = 0.5;
   double sigma = 0.5;  ///< standard deviation of the filter, spacings, .01 to 8
 
-  static constexpr int largest_size_px = 4096;
+  static constexpr int most_columns = 4096;
   static constexpr std::size_t largest_pixels = std::size_t{1} << 24;
 };
 
@@ -61,7 +61,7 @@ struct ZonePlate {
 ///
 /// Guarantees: what is measured is the samples' doing, but for the Gaussian's being cut at 3 sigma, which
 /// leaves an rmse of about .002 however many samples there are. Requires: a torus; finite points in it.
-/// Errors: invalid_parameters at /size_px, /frequency, /sigma; degenerate_input without points; cancelled,
+/// Errors: invalid_parameters at /columns, /frequency, /sigma; degenerate_input without points; cancelled,
 /// deadline_exceeded. Cost: a tree of the points, and about .5 us a pixel and 25 ns for each sample in its
 /// reach, 28 sigma^2 of them: .13 s for 122,500 samples and pixels; pixels far from all samples cost O(log
 /// n). Determinism: the same bits on any number of threads. Reference: Mitchell and Netravali,

@@ -35,4 +35,11 @@ double LinearSizing::at(Vec3 p) const {
 
 double LinearSizing::lipschitz() const { return std::fabs(options_.to - options_.from) / size_; }
 
+std::vector<double> radii_of(const PointSet& points, const Sizing* sizing) {
+  std::vector<double> radii(points.size(), 1);
+  if (sizing == nullptr) return radii;
+  for (std::size_t i = 0; i < points.size(); ++i) radii[i] = sizing->at(points[i]);
+  return radii;
+}
+
 }  // namespace wellspaced

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
-#include "core/domain/domain.h"
+#include "core/point_set.h"
 #include "core/vec.h"
 
 namespace wellspaced {
@@ -62,5 +63,8 @@ class LinearSizing final : public Sizing {
   LinearSizingOptions options_;
   double low_ = 0, size_ = 1;  ///< of the box along the axis
 };
+
+/// r at each point; all 1 without a sizing function.
+std::vector<double> radii_of(const PointSet& points, const Sizing* sizing);
 
 }  // namespace wellspaced

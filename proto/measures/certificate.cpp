@@ -23,9 +23,9 @@ std::optional<Certificate> weaker(const std::optional<Certificate>& a, const std
                      std::max(a->beta_upper, b->beta_upper)};
 }
 
-ordered_json run(std::span<const PointSet> sets, const Arguments&, const Control& control) {
-  std::optional<Certificate> proof = certify(sets.front(), control);
-  for (const PointSet& set : sets.subspan(1)) proof = weaker(proof, certify(set, control));
+ordered_json run(const MeasureInput& input, const Arguments&, const Control& control) {
+  std::optional<Certificate> proof = certify(input.sets.front(), control);
+  for (const PointSet& set : input.sets.subspan(1)) proof = weaker(proof, certify(set, control));
   return certificate_to_json(proof);
 }
 

@@ -9,10 +9,9 @@ namespace wellspaced {
 namespace {
 
 const std::vector<Measure> measure_rows = {
-    spacing_measure(),
-    certificate_measure(),
-    spectrum_measure(),
-    periodogram_measure(),
+    spacing_measure(),    certificate_measure(), distributions_measure(),    local_measure(),
+    spectrum_measure(),   periodogram_measure(), pair_correlation_measure(), discrepancy_measure(),
+    bond_order_measure(), zone_plate_measure(),  differential_measure(),
 };
 
 }  // namespace

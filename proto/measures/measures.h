@@ -14,6 +14,7 @@
 namespace wellspaced {
 
 struct Certificate;
+class Sizing;
 struct Spacing;
 
 /// What a measure's cost depends on.
@@ -23,11 +24,17 @@ struct MeasureSize {
   double aspect = 1;  ///< longer over shorter side of the domain
 };
 
+/// What a measure looks at.
+struct MeasureInput {
+  std::span<const PointSet> sets;  ///< usable, of one size and on one domain; at least one
+  const Sizing* sizing = nullptr;  ///< that the sets were made for; may be missing
+};
+
 /// One measure of `analyze`. Its object in the result is described by its schema.
 struct Measure : Method {
-  /// Averages over sets that are usable, of one size and on one domain; at least one.
+  /// Averages over the sets.
   /// Errors: with the parameter's pointer for a bad one; without a pointer for what the points are to blame.
-  nlohmann::ordered_json (*run)(std::span<const PointSet> sets, const Arguments&, const Control&) = nullptr;
+  nlohmann::ordered_json (*run)(const MeasureInput&, const Arguments&, const Control&) = nullptr;
   nlohmann::ordered_json (*schema)() = nullptr;                  ///< JSON Schema of what `run` returns
   Cost (*cost)(const MeasureSize&, const Arguments&) = nullptr;  ///< of all sets
   bool needs_torus = false;                                      ///< it means nothing on another domain

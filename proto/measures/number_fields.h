@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -43,6 +46,14 @@ nlohmann::ordered_json numbers_schema(std::span<const NumberField<Of>> fields,
 inline void add_property(nlohmann::ordered_json& schema, const char* name, nlohmann::ordered_json property) {
   schema["properties"][name] = std::move(property);
   schema["required"].push_back(name);
+}
+
+/// A list of numbers; null for NaN and infinity.
+inline nlohmann::ordered_json numbers_to_json(std::span<const double> values) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const double value : values)
+    out.push_back(std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json());
+  return out;
 }
 
 /// A list of numbers in which null stands for what is not known.

@@ -10,5 +10,12 @@ Measure spacing_measure();
 Measure certificate_measure();
 Measure spectrum_measure();
 Measure periodogram_measure();
+Measure pair_correlation_measure();
+Measure discrepancy_measure();
+Measure bond_order_measure();
+Measure distributions_measure();
+Measure local_measure();
+Measure zone_plate_measure();
+Measure differential_measure();
 
 }  // namespace wellspaced

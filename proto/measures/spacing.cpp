@@ -41,7 +41,8 @@ ordered_json object_of(std::span<const Spacing> sets) {
   return out;
 }
 
-ordered_json run(std::span<const PointSet> sets, const Arguments&, const Control& control) {
+ordered_json run(const MeasureInput& input, const Arguments&, const Control& control) {
+  const std::span<const PointSet> sets = input.sets;
   const auto all = of_each(sets.size(), [&](std::size_t s) { return measure_spacing(sets[s], control); });
   ordered_json out = object_of(all);
   if (sets.size() == 1) return out;

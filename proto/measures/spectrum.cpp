@@ -42,30 +42,22 @@ Cost cost_of_transforms(const MeasureSize& size, double range) {
           static_cast<double>(bytes) + (size.sets > 1 ? power : 0)};
 }
 
-ordered_json numbers(const std::vector<double>& values) {
-  ordered_json out = ordered_json::array();
-  for (const double value : values)
-    out.push_back(std::isfinite(value) ? ordered_json(value) : ordered_json());
-  return out;
-}
-
 ordered_json optional_number(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
 }
 
-ordered_json run_spectrum(std::span<const PointSet> sets, const Arguments& arguments,
-                          const Control& control) {
-  const Periodogram mean = mean_periodogram(sets, range_of(arguments, spectrum_range), control);
-  const Spectrum s = spectrum(mean, static_cast<int>(sets.size()));
+ordered_json run_spectrum(const MeasureInput& input, const Arguments& arguments, const Control& control) {
+  const Periodogram mean = mean_periodogram(input.sets, range_of(arguments, spectrum_range), control);
+  const Spectrum s = spectrum(mean, static_cast<int>(input.sets.size()));
   std::vector<double> frequency(s.power.size());
   for (std::size_t r = 0; r < frequency.size(); ++r) frequency[r] = static_cast<double>(r) / std::sqrt(s.n);
   return {{"effective_nyquist", optional_number(effective_nyquist(s))},
           {"oscillations", optional_number(oscillations(s))},
           {"anisotropy_mean_db", optional_number(mean_anisotropy_db(s))},
-          {"anisotropy_expected_db", 0.0 - 10 * portable_log10(static_cast<double>(sets.size()))},
-          {"frequency", numbers(frequency)},
-          {"power", numbers(s.power)},
-          {"anisotropy_db", numbers(s.anisotropy_db)}};
+          {"anisotropy_expected_db", 0.0 - 10 * portable_log10(static_cast<double>(input.sets.size()))},
+          {"frequency", numbers_to_json(frequency)},
+          {"power", numbers_to_json(s.power)},
+          {"anisotropy_db", numbers_to_json(s.anisotropy_db)}};
 }
 
 ordered_json spectrum_schema() {
@@ -88,9 +80,8 @@ ordered_json spectrum_schema() {
   return schema;
 }
 
-ordered_json run_periodogram(std::span<const PointSet> sets, const Arguments& arguments,
-                             const Control& control) {
-  const Periodogram mean = mean_periodogram(sets, range_of(arguments, periodogram_range), control);
+ordered_json run_periodogram(const MeasureInput& input, const Arguments& arguments, const Control& control) {
+  const Periodogram mean = mean_periodogram(input.sets, range_of(arguments, periodogram_range), control);
   ordered_json rows = ordered_json::array();
   const auto row = static_cast<std::size_t>(2 * mean.k_max + 1);
   for (std::size_t kx = 0; kx <= static_cast<std::size_t>(mean.k_max); ++kx) {

@@ -88,10 +88,10 @@ TEST(DifferentialDomain, AgreesWithASumOverAllPairs) {
           const auto differences = brute_differences(points, radii, options.reach + 7 * options.sigma);
           const double height_of_a_kernel =
               1 / (2 * pi * options.sigma * options.sigma * static_cast<double>(n - 1) * density_of_hexagons);
-          const int middle = options.size / 2, stride = std::max(1, options.size / 20);
-          for (int row = middle % stride; row < options.size; row += stride)
-            for (int column = middle % stride; column < options.size; column += stride) {
-              const double step = 2 * options.reach / options.size;
+          const int middle = options.pixels / 2, stride = std::max(1, options.pixels / 20);
+          for (int row = middle % stride; row < options.pixels; row += stride)
+            for (int column = middle % stride; column < options.pixels; column += stride) {
+              const double step = 2 * options.reach / options.pixels;
               const Vec2 q{(column - middle) * step, (row - middle) * step};
               const double wanted = brute_density(differences, q, options.sigma, n);
               // Half a percent of a kernel's height; many pairs have different shares of that.
@@ -336,7 +336,7 @@ TEST(DifferentialDomain, RefusesWhatItCannotMeasure) {
   for (const double reach : {0.9, 16.1, -1.0, nan, infinity})
     expect_error(with({reach, 257, 0.05}), ErrorCode::invalid_parameters, "/reach");
   for (const int size : {-1, 0, 1, 2, 256, 1027})
-    expect_error(with({4, size, 0.05}), ErrorCode::invalid_parameters, "/size");
+    expect_error(with({4, size, 0.05}), ErrorCode::invalid_parameters, "/pixels");
   for (const double sigma : {0.0, -1.0, 4 / 257.0, 1.01, nan, infinity})
     expect_error(with({4, 257, sigma}), ErrorCode::invalid_parameters, "/sigma");
   for (const std::size_t n : {0u, 19u, 21u})

@@ -195,7 +195,7 @@ TEST(ZonePlate, LimitsItsImageWhateverTheShape) {
       [] {
         zone_plate(random_points(0.01, 10, 50, 7), {200, 0.5, 0.5}, Control());
       },
-      ErrorCode::invalid_parameters, "/size_px", "2^24");
+      ErrorCode::invalid_parameters, "/columns", "2^24");
 }
 
 TEST(ZonePlate, RefusesWhatItCannotShow) {
@@ -205,7 +205,7 @@ TEST(ZonePlate, RefusesWhatItCannotShow) {
     return [&points, options] { zone_plate(points, options, Control()); };
   };
   for (const int size : {0, -1, 4097})
-    expect_error(show({size, 0.5, 0.5}), ErrorCode::invalid_parameters, "/size_px");
+    expect_error(show({size, 0.5, 0.5}), ErrorCode::invalid_parameters, "/columns");
   for (const double frequency : {-0.1, 16.1, nan, infinity})
     expect_error(show({{}, frequency, 0.5}), ErrorCode::invalid_parameters, "/frequency");
   for (const double sigma : {0.0, -1.0, 8.1, nan, infinity})

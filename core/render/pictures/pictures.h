@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/control.h"
+#include "core/domain/sizing.h"
 #include "core/optimize/optimize.h"
 #include "core/point_set.h"
 #include "core/registry.h"
@@ -17,6 +18,7 @@ struct PictureGroup {
   std::string label;  ///< may be empty
   std::span<const PointSet> sets;
   std::vector<SweepRecord> history;
+  const Sizing* sizing = nullptr;  ///< that the sets were made for; may be missing
 };
 
 /// One kind of picture.

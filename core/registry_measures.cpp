@@ -1,0 +1,89 @@
+#include "core/registry_measures.h"
+
+#include <charconv>
+#include <string>
+
+namespace wellspaced {
+namespace {
+
+struct Range {
+  double minimum, maximum;
+};
+
+std::string shortest(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+Parameter number(const char* name, const char* description, Range range, double fallback) {
+  Parameter p;
+  p.name = name;
+  p.description = description;
+  p.minimum = range.minimum;
+  p.maximum = range.maximum;
+  p.fallback = shortest(fallback);
+  return p;
+}
+
+Parameter whole(const char* name, const char* description, Range range, const std::string& fallback) {
+  Parameter p = number(name, description, range, 0);
+  p.type = Parameter::Type::integer;
+  p.fallback = fallback;
+  return p;
+}
+
+}  // namespace
+
+std::vector<Parameter> pair_correlation_parameters() {
+  const PairCorrelationOptions defaults;
+  return {number("reach", "up to which distance, in d_hex", {0.1, PairCorrelationOptions::largest_reach},
+                 defaults.reach),
+          whole("bins", "rings of equal width", {1, PairCorrelationOptions::most_bins},
+                std::to_string(defaults.bins))};
+}
+
+PairCorrelationOptions pair_correlation_options(const Arguments& arguments) {
+  PairCorrelationOptions options;
+  options.reach = argument(arguments, "reach").value_or(options.reach);
+  options.bins = static_cast<int>(argument(arguments, "bins").value_or(options.bins));
+  return options;
+}
+
+std::vector<Parameter> zone_plate_parameters() {
+  const ZonePlateOptions defaults;
+  return {
+      number(
+          "frequency",
+          "of the rings at a width's distance from the corner, in cycles a mean sample spacing sqrt(A / n)",
+          {0, 16}, defaults.frequency),
+      number("sigma", "standard deviation of the Gaussian filter, in mean sample spacings", {0.01, 8},
+             defaults.sigma),
+      whole("columns", "pixels across", {1, ZonePlateOptions::most_columns}, "one a sample")};
+}
+
+ZonePlateOptions zone_plate_options(const Arguments& arguments) {
+  ZonePlateOptions options;
+  if (const auto columns = argument(arguments, "columns")) options.columns = static_cast<int>(*columns);
+  options.frequency = argument(arguments, "frequency").value_or(options.frequency);
+  options.sigma = argument(arguments, "sigma").value_or(options.sigma);
+  return options;
+}
+
+std::vector<Parameter> differential_parameters() {
+  const DifferentialOptions defaults;
+  return {number("reach", "how far the differences go, in d_hex of the equivalent uniform set", {1, 16},
+                 defaults.reach),
+          number("sigma", "standard deviation of the Gaussian kernel, in d_hex; reach / 256 to reach / 4",
+                 {0.004, 4}, defaults.sigma),
+          whole("pixels", "of the image across, an odd number", {3, 1025}, std::to_string(defaults.pixels))};
+}
+
+DifferentialOptions differential_options(const Arguments& arguments) {
+  DifferentialOptions options;
+  options.reach = argument(arguments, "reach").value_or(options.reach);
+  options.sigma = argument(arguments, "sigma").value_or(options.sigma);
+  options.pixels = static_cast<int>(argument(arguments, "pixels").value_or(options.pixels));
+  return options;
+}
+
+}  // namespace wellspaced

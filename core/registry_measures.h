@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/analyze/differential.h"
+#include "core/analyze/pair_correlation.h"
+#include "core/analyze/zone_plate.h"
+#include "core/registry.h"
+
+namespace wellspaced {
+
+// Options of measures as parameters, for the measure and for the picture of it.
+
+std::vector<Parameter> pair_correlation_parameters();
+PairCorrelationOptions pair_correlation_options(const Arguments& arguments);
+
+std::vector<Parameter> zone_plate_parameters();
+ZonePlateOptions zone_plate_options(const Arguments& arguments);
+
+std::vector<Parameter> differential_parameters();
+DifferentialOptions differential_options(const Arguments& arguments);
+
+}  // namespace wellspaced

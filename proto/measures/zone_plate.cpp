@@ -1,0 +1,78 @@
+#include "core/analyze/zone_plate.h"
+
+#include <algorithm>
+
+#include "core/registry_measures.h"
+#include "proto/measures/number_fields.h"
+#include "proto/measures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json run(const MeasureInput& input, const Arguments& arguments, const Control& control) {
+  const ZonePlateOptions options = zone_plate_options(arguments);
+  double rmse = 0;
+  ZonePlate plate;
+  for (const PointSet& set : input.sets) {
+    plate = zone_plate(set, options, control);
+    rmse += plate.rmse / static_cast<double>(input.sets.size());
+  }
+  const PointSet& first = input.sets.front();
+  return {{"function",
+           "(1 + cos(pi k rho^2)) / 2, rho the distance from the corner (0, 0) in widths of the domain"},
+          {"k", zone_plate_field(*first.domain, first.size(), options.frequency).k},
+          {"frequency", options.frequency},
+          {"sigma", options.sigma},
+          {"columns", plate.columns},
+          {"rows", plate.rows},
+          {"rmse", rmse}};
+}
+
+ordered_json schema() {
+  const auto typed = [](const char* type, const char* description) {
+    return ordered_json{{"type", type}, {"description", description}};
+  };
+  ordered_json out = {{"type", "object"}};
+  add_property(out, "function", typed("string", "that was sampled"));
+  add_property(out, "k", typed("number", "cycles a width at a width's distance from the corner"));
+  add_property(out, "frequency", typed("number", "the same in cycles a mean sample spacing, sqrt(A / n)"));
+  add_property(out, "sigma",
+               typed("number", "standard deviation of the Gaussian filter, in mean sample spacings"));
+  add_property(out, "columns", typed("integer", "pixels"));
+  add_property(out, "rows", typed("integer", "pixels"));
+  add_property(
+      out, "rmse",
+      typed(
+          "number",
+          "root mean square difference of the pixels (values in [0, 1]) from the function filtered exactly: "
+          "aliasing and noise; of several sets, the mean"));
+  return out;
+}
+
+}  // namespace
+
+Measure zone_plate_measure() {
+  Measure row;
+  row.name = "zone-plate";
+  row.title = "Zone plate";
+  row.description =
+      "The aliasing test: rings that get finer outwards, sampled at the points and reconstructed by a "
+      "Gaussian filter. "
+      "The picture of the same name shows the image.";
+  row.reference = "Mitchell and Netravali 1988; Lagae and Dutre 2008";
+  row.parameters = zone_plate_parameters();
+  row.run = run;
+  row.schema = schema;
+  row.cost = [](const MeasureSize& size, const Arguments& arguments) {
+    const ZonePlateOptions options = zone_plate_options(arguments);
+    const double across = options.columns ? *options.columns : 0, side = 1 + 2 * options.sigma;
+    const double pixels = std::max(size.n, across * across * size.aspect);
+    return Cost{size.sets * (5e-7 * size.n + 6e-7 * pixels * side * side), 60 * size.n + 16 * pixels};
+  };
+  row.needs_torus = true;
+  return row;
+}
+
+}  // namespace wellspaced
