@@ -137,7 +137,8 @@ class Painter {
 
   void reference_label(const Reference& r) {
     if (r.y && *r.y <= chart_.y.high && *r.y >= chart_.y.low)
-      canvas_.text({frame_.x + 5, y_px(*r.y) - 4}, r.label, {11, faint_ink, Align::start});
+      canvas_.text({r.align == Align::end ? frame_.right() - 5 : frame_.x + 5, y_px(*r.y) - 4}, r.label,
+                   {11, faint_ink, r.align});
     if (r.x && *r.x <= chart_.x.high && *r.x >= chart_.x.low)
       canvas_.text({x_px(*r.x) + 4, frame_.y + 13}, r.label, {11, faint_ink, Align::start});
   }

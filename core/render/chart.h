@@ -37,6 +37,7 @@ struct Series {
 struct Reference {
   std::optional<double> x, y;  ///< one of them
   std::string label;
+  Align align = Align::start;  ///< the side at which a horizontal one has its label
 };
 
 /// A frame with curves: what is outside of the axes' ranges or not finite is not shown.

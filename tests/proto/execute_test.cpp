@@ -1,13 +1,22 @@
 #include "proto/execute.h"
 
 #include <cmath>
+#include <fstream>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "core/analyze/bond_order.h"
 #include "core/analyze/certificate.h"
+#include "core/analyze/differential.h"
+#include "core/analyze/discrepancy.h"
+#include "core/analyze/distributions.h"
+#include "core/analyze/pair_correlation.h"
 #include "core/analyze/spacing.h"
+#include "core/analyze/zone_plate.h"
 #include "tests/support/proto_requests.h"
 
 namespace wellspaced {
@@ -304,6 +313,150 @@ TEST(Execute, MeasuresSpectra) {
   EXPECT_NEAR(averaged["anisotropy_expected_db"].get<double>(), -9.03, 0.01);
   EXPECT_NEAR(averaged["anisotropy_mean_db"].get<double>(), -9.03, 0.6);
   EXPECT_NEAR(averaged["power"][40].get<double>(), 1, 0.2);
+}
+
+/// Two sets as an array, and what a measure says of both, with parameters if any are given.
+nlohmann::ordered_json measured(const std::string& call) {
+  return run("analyze",
+             R"({"points":{"generate":{"count":300,"seed":1}},"seeds":2,"measures":[)" + call + "]}")
+      .summary;
+}
+
+std::vector<PointSet> two_sets() {
+  std::vector<PointSet> sets;
+  for (const char* seed : {"1", "2"})
+    sets.push_back(run("generate", R"({"count":300,"seed":)" + std::string(seed) + "}").points());
+  return sets;
+}
+
+double mean_of(const std::function<double(const PointSet&)>& measure) {
+  double sum = 0;
+  for (const PointSet& set : two_sets()) sum += measure(set) / 2;
+  return sum;
+}
+
+TEST(Execute, AveragesDiscrepancyAndBondOrder) {
+  const auto d = measured(R"("discrepancy")")["discrepancy"];
+  EXPECT_NEAR(d["star"], mean_of([](const PointSet& p) { return discrepancy(p, Control()).star; }), 1e-15);
+  EXPECT_NEAR(d["l2_periodic"],
+              mean_of([](const PointSet& p) { return discrepancy(p, Control()).l2_periodic; }), 1e-15);
+  const auto b = measured(R"("bond-order")")["bond-order"];
+  EXPECT_NEAR(b["psi6_local"], mean_of([](const PointSet& p) { return bond_order(p, Control()).psi6_local; }),
+              1e-15);
+  EXPECT_NEAR(b["psi6_edges"], mean_of([](const PointSet& p) { return bond_order(p, Control()).psi6_edges; }),
+              1e-15);
+}
+
+TEST(Execute, PoolsDistributions) {
+  const auto d = measured(R"("distributions")")["distributions"];
+  std::vector<Distributions> all;
+  for (const PointSet& set : two_sets()) all.push_back(distributions(set, Control()));
+  const Distributions pooled = pool(std::span<const Distributions>(all));
+  EXPECT_EQ(d["beta_i"]["counts"], pooled.beta_i.counts);
+  EXPECT_EQ(d["valence"]["low"], pooled.valence.low);
+  EXPECT_EQ(d["angle_deg"]["mean"], pooled.angle_deg.mean);
+  std::uint64_t total = d["nearest"]["above"];
+  for (const auto& count : d["nearest"]["counts"]) total += count.get<std::uint64_t>();
+  EXPECT_EQ(total, 600u);
+}
+
+TEST(Execute, AveragesPairCorrelationAndDifferentials) {
+  const auto g = measured(R"({"measure":"pair-correlation","reach":3,"bins":30})")["pair-correlation"];
+  ASSERT_EQ(g["g"].size(), 30u);
+  EXPECT_NEAR(g["r"][29], 2.95, 1e-12);
+  EXPECT_NEAR(g["g"][9], mean_of([](const PointSet& p) {
+                return pair_correlation(p, {3, 30}, Control()).g[9];
+              }),
+              1e-12);
+  EXPECT_NEAR(g["peak"]["r"], 0.85, 0.11);
+  const auto d = measured(R"({"measure":"differential","reach":3,"pixels":61})")["differential"];
+  EXPECT_EQ(d["reach"], 3.0);
+  EXPECT_EQ(d["r"].size(), d["density"].size());
+  const std::vector<double> radii(300, 1.0);
+  EXPECT_NEAR(d["density"][25], mean_of([&](const PointSet& p) {
+                return differential_domain(p, radii, {3, 61, 0.05}, Control()).mean[25];
+              }),
+              1e-12);
+}
+
+TEST(Execute, TakesASizingFunction) {
+  const std::string points = R"({"points":{"generate":{"count":300,"seed":1}},"measures":["differential"])";
+  const Result plain = run("analyze", points + "}");
+  const Result same = run("analyze", points + R"(,"sizing":{"type":"constant","radius":0.3}})");
+  const Result linear =
+      run("analyze", points + R"(,"sizing":{"type":"linear","axis":"y","from":0.2,"to":0.1}})");
+  EXPECT_FALSE(plain.summary.contains("sizing"));
+  EXPECT_EQ(same.summary["differential"], plain.summary["differential"]);
+  EXPECT_NE(linear.summary["differential"], plain.summary["differential"]);
+  EXPECT_NEAR(linear.summary["sizing"]["lipschitz"], 0.1, 1e-15);
+  EXPECT_EQ(linear.groups[0].sizing.sizing->at({0.5, 0.5, 0}), 0.15000000000000002);
+}
+
+TEST(Execute, MeasuresEachPoint) {
+  const auto local = measured(R"("local")")["local"]["by_set"];
+  ASSERT_EQ(local.size(), 2u);
+  const std::vector<PointSet> sets = two_sets();
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_EQ(local[s]["beta_i"], measure_local_spacing(sets[s], Control()).beta_i);
+    EXPECT_EQ(local[s]["psi6"], bond_order(sets[s], Control()).psi6);
+    double area = 0, neighbors = 0, smallest = 180;
+    for (std::size_t i = 0; i < 300; ++i) {
+      area += local[s]["area"][i].get<double>();
+      neighbors += local[s]["valence"][i].get<double>();
+      smallest = std::min(smallest, local[s]["angle"][i].get<double>());
+    }
+    EXPECT_NEAR(area, 300, 1e-9);
+    EXPECT_EQ(neighbors, 1800);
+    EXPECT_NEAR(smallest, measure_spacing(sets[s], Control()).angle_min_deg, 1e-9);
+  }
+}
+
+TEST(Execute, MeasuresAliasingByTheZonePlate) {
+  const auto z = measured(R"({"measure":"zone-plate","sigma":0.6,"columns":20})")["zone-plate"];
+  EXPECT_EQ(z["columns"], 20);
+  EXPECT_EQ(z["rows"], 20);
+  EXPECT_NEAR(z["k"], 0.5 * std::sqrt(300), 1e-9);
+  const ZonePlateOptions options{20, 0.5, 0.6};
+  EXPECT_NEAR(z["rmse"], mean_of([&](const PointSet& p) { return zone_plate(p, options, Control()).rmse; }),
+              1e-15);
+}
+
+TEST(Execute, SaysWhichParameterOfAMeasureIsBad) {
+  const auto refused = [](const std::string& call, const char* where) {
+    try {
+      measured(R"("spacing",)" + call);
+      ADD_FAILURE() << call;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_parameters) << error.what();
+      EXPECT_EQ(error.where(), where);
+    }
+  };
+  refused(R"({"measure":"differential","pixels":100})", "/measures/1/pixels");
+  refused(R"({"measure":"differential","sigma":3})", "/measures/1/sigma");
+  refused(R"({"measure":"pair-correlation","bins":0})", "/measures/1/bins");
+}
+
+/// A set by another sampler, and the spectrum that another program found: through the whole contract.
+TEST(Execute, FindsThePeriodogramThatAnotherProgramFound) {
+  const std::string folder = std::string(WELLSPACED_TEST_DATA) + "/points/";
+  std::ifstream points(folder + "utk_AAPatterns.dat"), spectrum(folder + "utk_AAPatterns_spectrum.dat");
+  std::string csv, x, y;
+  while (points >> x >> y) csv += x + "," + y + "\n";
+  Control control(2);
+  const double range = 79.0 / 32;  // of 1024 points
+  const Request request =
+      testing::read_table("analyze", "text/csv", csv,
+                          {{"measures", "periodogram"}, {"periodogram.range", std::to_string(range)}});
+  const auto found = execute(request, control).summary["periodogram"];
+  ASSERT_EQ(found["k_max"], 79);
+  for (int ky = -79; ky <= 79; ++ky)
+    for (int kx = -79; kx <= 79; ++kx) {
+      double wanted = NAN;
+      spectrum >> wanted;
+      const int a = kx < 0 ? -kx : kx, b = kx < 0 ? -ky : ky;
+      const double power = found["power"][static_cast<std::size_t>(a)][static_cast<std::size_t>(b + 79)];
+      EXPECT_NEAR(power, wanted, 1e-9 * std::max(1.0, wanted)) << kx << ", " << ky;
+    }
 }
 
 TEST(Execute, TellsAtRunTimeWhatOnlyTheWorkShows) {

@@ -8,8 +8,9 @@ namespace wellspaced {
 namespace {
 
 const std::vector<Picture> picture_rows = {
-    voronoi_picture(),  delaunay_picture(),    points_picture(),
-    spectrum_picture(), periodogram_picture(), convergence_picture(),
+    voronoi_picture(),     delaunay_picture(),    points_picture(),           overview_picture(),
+    spectrum_picture(),    periodogram_picture(), pair_correlation_picture(), distributions_picture(),
+    convergence_picture(), zone_plate_picture(),  differential_picture(),
 };
 
 }  // namespace

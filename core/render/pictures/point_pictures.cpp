@@ -264,6 +264,12 @@ Picture row(const char* name, const char* title, const char* description) {
 
 }  // namespace
 
+Drawing plain_points(const PointSet& points, double size_px, const Control& control) {
+  const auto panel = std::make_shared<const Panel>(points, Kind::points, std::nullopt, size_px, control);
+  return {panel->width_px(), panel->height_px(), std::to_string(points.size()) + " points",
+          [panel](Canvas& canvas) { panel->draw(canvas); }};
+}
+
 Picture voronoi_picture() {
   Picture picture =
       row("voronoi", "Voronoi cells", "Each sample's Voronoi cell, colored by a measure of the sample.");

@@ -13,9 +13,17 @@ Picture delaunay_picture();
 Picture points_picture();
 Picture periodogram_picture();
 Picture spectrum_picture();
+Picture pair_correlation_picture();
+Picture distributions_picture();
+Picture zone_plate_picture();
+Picture differential_picture();
 Picture convergence_picture();
+Picture overview_picture();
 
 // What they share.
+
+/// The samples as black dots, for pictures that show other things beside.
+Drawing plain_points(const PointSet& points, double size_px, const Control& control);
 
 Parameter size_parameter(double fallback_px);
 double size_px_of(const Arguments& arguments, double fallback_px);

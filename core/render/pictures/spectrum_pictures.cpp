@@ -11,7 +11,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px = 440;
+constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px = 440, overview_px = 340;
 /// What the oscillations need; not worth it for the largest sets.
 constexpr double full_range = 6.5;
 constexpr std::size_t most_points_in_full = 200'000;
@@ -170,7 +170,51 @@ Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arg
   return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
 }
 
+// ---- everything at once
+
+/// Points and periodogram side by side, the curves below: one row of both for each group.
+Drawing overview_panel(const PictureGroup& group, Curves curves, double high, double size_px,
+                       const Control& control) {
+  Drawing points = with_margin(plain_points(group.sets.front(), size_px, control), 12);
+  Drawing image = periodogram_panel({"", group.sets, {}}, image_range, size_px, control);
+  Drawing above = grid_of({std::move(points), std::move(image)}, 2, 4);
+  Drawing below =
+      spectrum_panel({"", group.sets, {}}, std::move(curves), curve_range, high, above.width_px - 90);
+  return with_caption(stack_of({std::move(above), std::move(below)}, 4), group.label);
+}
+
+Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arguments,
+                      const Control& control) {
+  const double size_px = size_px_of(arguments, overview_px);
+  std::vector<Curves> curves;
+  std::vector<Series> powers;
+  for (const PictureGroup& group : groups) {
+    curves.push_back(curves_of(group, curve_range, control));
+    powers.push_back(curves.back().power);
+  }
+  const double high = round_high(powers, 1.9, 8);
+  std::vector<Drawing> panels;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    panels.push_back(overview_panel(groups[g], std::move(curves[g]), high, size_px, control));
+  return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
+}
+
 }  // namespace
+
+Picture overview_picture() {
+  Picture picture;
+  picture.name = "overview";
+  picture.title = "Overview";
+  picture.description =
+      "The points of a group's first set, the periodogram as an image, and radial mean power and anisotropy "
+      "below, the "
+      "latter averaged over the group's sets.";
+  picture.parameters = {size_parameter(overview_px)};
+  picture.make = make_overview;
+  picture.draws_each_point = true;
+  picture.needs_torus = true;
+  return picture;
+}
 
 Picture periodogram_picture() {
   Picture picture;

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/analyze/distributions.h"
+#include "core/analyze/pair_correlation.h"
+#include "core/registry_measures.h"
+#include "core/render/chart.h"
+#include "core/render/pictures/rows.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr double correlation_px = 560, histogram_px = 260;
+constexpr std::size_t most_plain_colors = 7;
+
+/// How a group's curve looks among others. The legend names it where there are several.
+Series series_for(const PictureGroup& group, std::size_t number, std::size_t groups) {
+  Series series;
+  if (groups > 1) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
+  series.color = color_of_class(number);
+  series.dash_px = number < most_plain_colors ? 0 : 5;
+  return series;
+}
+
+PairCorrelation mean_correlation(const PictureGroup& group, const PairCorrelationOptions& options,
+                                 const Control& control) {
+  std::vector<PairCorrelation> all;
+  for (const PointSet& set : group.sets) all.push_back(pair_correlation(set, options, control));
+  return average(all);
+}
+
+Drawing make_pair_correlation(std::span<const PictureGroup> groups, const Arguments& arguments,
+                              const Control& control) {
+  const PairCorrelationOptions options = pair_correlation_options(arguments);
+  const double width_px = size_px_of(arguments, correlation_px);
+  Chart chart;
+  chart.width_px = width_px;
+  chart.height_px = 0.5 * width_px;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const PairCorrelation mean = mean_correlation(groups[g], options, control);
+    Series series = series_for(groups[g], g, groups.size());
+    for (std::size_t k = 0; k < mean.g.size(); ++k) {
+      series.x.push_back(mean.middle(k));
+      series.y.push_back(mean.g[k]);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  chart.x = {0, options.reach, "r / d_{hex}"};
+  chart.y = {0, round_high(chart.series, 1.8, 12), "pair correlation g(r)"};
+  chart.references = {{std::nullopt, 1, "white noise", Align::end}};
+  Drawing drawing = draw(std::move(chart));
+  drawing.title = "pair correlation";
+  return with_margin(with_caption(std::move(drawing), groups.size() == 1 ? groups[0].label : ""), 16);
+}
+
+struct Quantity {
+  const char* title;
+  Histogram Distributions::*histogram;
+  bool whole = false;  ///< values are whole numbers
+};
+
+constexpr Quantity quantities[] = {{"β_i", &Distributions::beta_i},
+                                   {"Delaunay neighbors", &Distributions::valence, true},
+                                   {"angle, degrees", &Distributions::angle_deg},
+                                   {"edge length / d_{hex}", &Distributions::edge},
+                                   {"nearest distance / d_{hex}", &Distributions::nearest},
+                                   {"cell area / mean", &Distributions::cell_area}};
+
+/// The edges of the bins between which all but `tail` of the values at each end lie.
+std::pair<double, double> bulk_of(const Histogram& h, double tail) {
+  const double few = tail * static_cast<double>(h.total());
+  std::size_t first = 0, last = h.counts.size();
+  for (double sum = 0; first + 1 < last; ++first)
+    if ((sum += static_cast<double>(h.counts[first])) > few) break;
+  for (auto sum = static_cast<double>(h.above); last > first + 1 && sum <= few; --last)
+    if ((sum += static_cast<double>(h.counts[last - 1])) > few) break;
+  return {h.low + static_cast<double>(first) * h.width, h.low + static_cast<double>(last) * h.width};
+}
+
+/// What shows nearly all values of every group.
+Axis axis_of(std::span<const Distributions> all, const Quantity& quantity) {
+  constexpr double tail = 0.001;
+  Axis axis{1e300, -1e300, quantity.title};
+  for (const Distributions& d : all) {
+    const auto [low, high] = bulk_of(d.*quantity.histogram, quantity.whole ? 0 : tail);
+    axis.low = std::min(axis.low, low);
+    axis.high = std::max(axis.high, high);
+  }
+  if (quantity.whole) {
+    const double step = std::ceil((axis.high - axis.low) / 12);
+    for (double k = std::ceil(axis.low); k < axis.high; k += step)
+      axis.ticks.push_back({k, number_label(k, 6)});
+    return axis;
+  }
+  const double room = 0.04 * (axis.high - axis.low);
+  axis.low = std::max(0.0, axis.low - room);
+  axis.high += room;
+  return axis;
+}
+
+Distributions pooled(const PictureGroup& group, const Control& control) {
+  std::vector<Distributions> all;
+  for (const PointSet& set : group.sets) all.push_back(distributions(set, control));
+  return pool(std::span<const Distributions>(all));
+}
+
+/// As shares of all values a unit of the axis, or a whole number.
+Series steps_of(const Histogram& h, Series series) {
+  series.kind = Series::Kind::steps;
+  const auto total = static_cast<double>(h.total());
+  for (std::size_t k = 0; k <= h.counts.size(); ++k)
+    series.x.push_back(h.low + static_cast<double>(k) * h.width);
+  for (const std::uint64_t count : h.counts) series.y.push_back(static_cast<double>(count) / total / h.width);
+  return series;
+}
+
+Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments& arguments,
+                           const Control& control) {
+  const double width_px = size_px_of(arguments, histogram_px);
+  std::vector<Distributions> all;
+  for (const PictureGroup& group : groups) all.push_back(pooled(group, control));
+  std::vector<Drawing> charts;
+  for (const Quantity& quantity : quantities) {
+    Chart chart;
+    chart.width_px = width_px;
+    chart.height_px = 0.7 * width_px;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      chart.series.push_back(steps_of(all[g].*quantity.histogram, series_for(groups[g], g, groups.size())));
+    chart.x = axis_of(all, quantity);
+    chart.y = {0, round_high(chart.series, 1e-6, 1e6), quantity.whole ? "share" : "density"};
+    charts.push_back(draw(std::move(chart)));
+  }
+  Drawing sheet = grid_of(std::move(charts), 3, panel_gap_px);
+  sheet.title = "distributions of beta_i, valences, angles, edges, nearest distances and cell areas";
+  return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
+}
+
+}  // namespace
+
+Picture pair_correlation_picture() {
+  Picture picture;
+  picture.name = "pair-correlation";
+  picture.title = "Pair correlation";
+  picture.description = "g(r), averaged over the sets of a group; one curve a group.";
+  picture.parameters = pair_correlation_parameters();
+  picture.parameters.push_back(size_parameter(correlation_px));
+  picture.make = make_pair_correlation;
+  picture.needs_torus = true;
+  return picture;
+}
+
+Picture distributions_picture() {
+  Picture picture;
+  picture.name = "distributions";
+  picture.title = "Distributions";
+  picture.description =
+      "Histograms of local ratios, valences, angles, edges, nearest distances and cell areas; one curve a "
+      "group.";
+  picture.parameters = {size_parameter(histogram_px)};
+  picture.make = make_distributions;
+  return picture;
+}
+
+}  // namespace wellspaced
