@@ -66,7 +66,7 @@ Periodogram mean_periodogram(std::span<const PointSet> sets, double range, const
 }
 
 Spectrum spectrum(const Periodogram& periodogram, int sets) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN(), periodogram_error = 1e-9;
   const std::size_t rings = rings_within(periodogram);
   Spectrum result{periodogram.n, sets, std::vector<double>(rings), std::vector<double>(rings)};
   std::vector<double> members(rings), squares(rings);
@@ -81,7 +81,8 @@ Spectrum spectrum(const Periodogram& periodogram, int sets) {
   });
   for (std::size_t r = 1; r < rings; ++r) {
     const double mean = result.power[r], ratio = squares[r] / (members[r] - 1) / (mean * mean);
-    result.anisotropy_db[r] = ratio > 0 && std::isfinite(ratio) ? 10 * portable_log10(ratio) : unknown;
+    const bool known = mean > periodogram_error && ratio > 0 && std::isfinite(ratio);
+    result.anisotropy_db[r] = known ? 10 * portable_log10(ratio) : unknown;
   }
   result.power[0] = result.anisotropy_db[0] = 0;
   return result;

@@ -12,7 +12,8 @@ namespace wellspaced {
 /// with |k| in [r - 1/2, r + 1/2), on the unit square |k| = sqrt(kx^2 + ky^2).
 ///
 /// Shapes: element r of `power` and `anisotropy_db` is ring r; element 0 is 0. Only rings that lie within the
-/// periodogram's square; NaN where a ring holds nothing (anisotropy: less than two, or only zeros).
+/// periodogram's square; NaN where a ring holds nothing (anisotropy: less than two, or only zeros to within
+/// the periodogram's error).
 struct Spectrum {
   double n = 0;                       ///< points; the mean number for an average over sets
   int sets = 1;                       ///< averaged

@@ -160,7 +160,8 @@ void paint_legend(const LegendRows& rows, Vec2 at, Canvas& canvas) {
 
 std::string number_label(double value, int digits) {
   char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value + 0.0, std::chars_format::general, digits);
   return with_minus(std::string(buffer, end.ptr));
 }
 

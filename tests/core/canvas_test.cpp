@@ -231,6 +231,7 @@ TEST(RoundTicks, AreRoundAndWithinTheRange) {
 TEST(NumberLabel, IsShort) {
   EXPECT_EQ(number_label(0.70710678, 4), "0.7071");
   EXPECT_EQ(number_label(-3, 4), "−3");
+  EXPECT_EQ(number_label(-0.0, 4), "0");
   EXPECT_EQ(number_label(0.5, 4), "0.5");
 }
 

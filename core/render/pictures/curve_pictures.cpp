@@ -106,14 +106,27 @@ Distributions pooled(const PictureGroup& group, const Control& control) {
   return pool(std::span<const Distributions>(all));
 }
 
-/// As shares of all values a unit of the axis, or a whole number.
-Series steps_of(const Histogram& h, Series series) {
+/// As shares of all values a unit of the axis, in bins of `together` of the histogram's own.
+Series steps_of(const Histogram& h, std::size_t together, Series series) {
   series.kind = Series::Kind::steps;
-  const auto total = static_cast<double>(h.total());
-  for (std::size_t k = 0; k <= h.counts.size(); ++k)
-    series.x.push_back(h.low + static_cast<double>(k) * h.width);
-  for (const std::uint64_t count : h.counts) series.y.push_back(static_cast<double>(count) / total / h.width);
+  const double total = static_cast<double>(h.total()), width = h.width * static_cast<double>(together);
+  // Bins of all groups begin at multiples of their width.
+  const auto begin = static_cast<std::size_t>(std::max(0.0, std::round(h.low / h.width))) % together;
+  series.x.push_back(h.low - static_cast<double>(begin) * h.width);
+  for (std::size_t k = 0; k < h.counts.size(); ++k) {
+    if (k == 0 || (k + begin) % together == 0) {
+      series.y.push_back(0);
+      series.x.push_back(series.x.back() + width);
+    }
+    series.y.back() += static_cast<double>(h.counts[k]) / total / width;
+  }
   return series;
+}
+
+/// How many bins are drawn as one, so that not too many are side by side.
+std::size_t bins_together(const Axis& axis, double bin_width) {
+  constexpr double most_bins = 70;
+  return static_cast<std::size_t>(std::max(1.0, std::ceil((axis.high - axis.low) / bin_width / most_bins)));
 }
 
 Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments& arguments,
@@ -126,9 +139,12 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
     Chart chart;
     chart.width_px = width_px;
     chart.height_px = 0.7 * width_px;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      chart.series.push_back(steps_of(all[g].*quantity.histogram, series_for(groups[g], g, groups.size())));
     chart.x = axis_of(all, quantity);
+    const std::size_t together =
+        quantity.whole ? 1 : bins_together(chart.x, (all[0].*quantity.histogram).width);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      chart.series.push_back(
+          steps_of(all[g].*quantity.histogram, together, series_for(groups[g], g, groups.size())));
     chart.y = {0, round_high(chart.series, 1e-6, 1e6), quantity.whole ? "share" : "density"};
     charts.push_back(draw(std::move(chart)));
   }

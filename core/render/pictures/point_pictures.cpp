@@ -177,7 +177,8 @@ class Panel {
   void samples(Canvas& canvas) const {
     const bool alone = kind_ == Kind::points;
     const double radius_px = alone ? 2.5 * sample_px_ : sample_px_, radius = radius_px / view_.scale;
-    const Rgb dark{17, 17, 17}, plain = kind_ == Kind::voronoi && scale_ ? paper : dark;
+    const bool on_dark = kind_ == Kind::voronoi && scale_ && scale_->map.data() == map_sequential.data();
+    const Rgb dark{17, 17, 17}, plain = on_dark ? paper : dark;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Rgb fill = alone && scale_ ? color(value(i)) : plain;
       on_all_sides(i, {{-radius, -radius}, {radius, radius}}, [&](Vec2 at) {

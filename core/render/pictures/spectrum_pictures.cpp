@@ -115,18 +115,32 @@ double peak_of(const Spectrum& s) {
   return peak;
 }
 
+/// The end of the axis that shows all anisotropies.
+double highest_db(const std::vector<Curves>& all) {
+  double high = 10;
+  for (const Curves& curves : all)
+    for (const double db : curves.anisotropy.y)
+      if (std::isfinite(db)) high = std::max(high, 10 * std::ceil(db / 10));
+  return high;
+}
+
 double expected_db(const PictureGroup& group) {
   return 0.0 - 10 * portable_log10(static_cast<double>(group.sets.size()));
 }
 
-Drawing spectrum_panel(const PictureGroup& group, Curves curves, double range, double high, double width_px) {
+/// Of axes that all panels share.
+struct Limits {
+  double range, power, db;
+};
+
+Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& limits, double width_px) {
   const Spectrum& s = curves.spectrum;
   const double peak = peak_of(s);
   Chart power;
   power.width_px = width_px;
   power.height_px = 0.48 * width_px;
-  power.x = {0, range, "frequency / √(n/A)"};
-  power.y = {0, high, "radial mean power"};
+  power.x = {0, limits.range, "frequency / √(n/A)"};
+  power.y = {0, limits.power, "radial mean power"};
   power.series = {std::move(curves.power)};
   power.references = {{std::nullopt, 1, "white noise"}};
   const std::optional<double> nyquist = effective_nyquist(s);
@@ -137,8 +151,10 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, double range, d
   anisotropy.x = power.x;
   const double expected = expected_db(group);
   const double lowest = 5 * std::floor(expected / 5) - 5;
-  anisotropy.y = {lowest, 10, "anisotropy, dB", {}};
-  for (double db = lowest; db <= 10; db += 5) anisotropy.y.ticks.push_back({db, number_label(db, 3)});
+  anisotropy.y = {lowest, limits.db, "anisotropy, dB", {}};
+  const double step = limits.db - lowest > 25 ? 10 : 5;
+  for (double db = step * std::ceil(lowest / step); db <= limits.db; db += step)
+    anisotropy.y.ticks.push_back({db, number_label(db, 3)});
   anisotropy.series = {std::move(curves.anisotropy)};
   anisotropy.series[0].color = color_of_class(1);
   anisotropy.references = {{std::nullopt, expected, ""}};  // -10 log10 K
@@ -163,23 +179,22 @@ Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arg
     curves.push_back(curves_of(group, range, control));
     powers.push_back(curves.back().power);
   }
-  const double high = round_high(powers, 1.9, 8);
+  const Limits limits{range, round_high(powers, 1.9, 8), highest_db(curves)};
   std::vector<Drawing> panels;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    panels.push_back(spectrum_panel(groups[g], std::move(curves[g]), range, high, width_px));
+    panels.push_back(spectrum_panel(groups[g], std::move(curves[g]), limits, width_px));
   return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
 }
 
 // ---- everything at once
 
 /// Points and periodogram side by side, the curves below: one row of both for each group.
-Drawing overview_panel(const PictureGroup& group, Curves curves, double high, double size_px,
+Drawing overview_panel(const PictureGroup& group, Curves curves, const Limits& limits, double size_px,
                        const Control& control) {
   Drawing points = with_margin(plain_points(group.sets.front(), size_px, control), 12);
   Drawing image = periodogram_panel({"", group.sets, {}}, image_range, size_px, control);
   Drawing above = grid_of({std::move(points), std::move(image)}, 2, 4);
-  Drawing below =
-      spectrum_panel({"", group.sets, {}}, std::move(curves), curve_range, high, above.width_px - 90);
+  Drawing below = spectrum_panel({"", group.sets, {}}, std::move(curves), limits, above.width_px - 90);
   return with_caption(stack_of({std::move(above), std::move(below)}, 4), group.label);
 }
 
@@ -192,10 +207,10 @@ Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arg
     curves.push_back(curves_of(group, curve_range, control));
     powers.push_back(curves.back().power);
   }
-  const double high = round_high(powers, 1.9, 8);
+  const Limits limits{curve_range, round_high(powers, 1.9, 8), highest_db(curves)};
   std::vector<Drawing> panels;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    panels.push_back(overview_panel(groups[g], std::move(curves[g]), high, size_px, control));
+    panels.push_back(overview_panel(groups[g], std::move(curves[g]), limits, size_px, control));
   return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
 }
 
