@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/error.h"
 #include "proto/arguments.h"
@@ -37,14 +38,40 @@ Method with_scale(const Picture& picture) {
   return method;
 }
 
-void require_few(double points, const Picture& picture, const Limits& limits) {
-  const double most =
-      static_cast<double>(limits.picture_points) * (picture.draws_each_point ? 1 : without_points_factor);
-  if (points <= most) return;
-  throw Error(ErrorCode::too_large,
-              "this picture of about " + number_text(points) + " points is above the limit of " +
-                  number_text(most) + "; ask for the points and draw a part of them",
-              "/picture");
+/// What a picture is made of: the largest set, all sets together, and the most elongated domain.
+struct Subject {
+  double n = 0, total = 0, aspect = 1;
+
+  void add(double points, const Domain& domain) {
+    const Vec3 sides = domain.box().size;
+    n = std::max(n, points);
+    total += points;
+    aspect = std::max({aspect, sides.x / sides.y, sides.y / sides.x});
+  }
+};
+
+[[noreturn]] void refuse_size(const std::string& what, double limit, const std::string& way_out,
+                              const std::string& where) {
+  throw Error(
+      ErrorCode::too_large,
+      "this picture of about " + what + " is above the limit of " + number_text(limit) + "; " + way_out,
+      where);
+}
+
+void require_size(const Subject& subject, const PictureCall& call, const Limits& limits) {
+  const auto drawn = static_cast<double>(limits.picture_points);
+  if (call.picture->draws_each_point && subject.n > drawn)
+    refuse_size(number_text(std::round(subject.n)) + " points", drawn,
+                "ask for the points and draw a part of them", "/picture");
+  if (subject.total > without_points_factor * drawn)
+    refuse_size(number_text(std::round(subject.total)) + " points", without_points_factor * drawn,
+                "ask for fewer points or sets", "/picture");
+  if (call.picture->bytes == nullptr) return;
+  const double mebibytes = std::ceil(call.picture->bytes(subject.n, subject.aspect, call.arguments) / 0x1p20),
+               limit = std::floor(static_cast<double>(limits.memory_bytes) / 0x1p20);
+  if (mebibytes > limit)
+    refuse_size(number_text(std::min(mebibytes, 1e15)) + " MiB", limit,
+                "ask for a smaller range, or fewer points", "/picture/range");
 }
 
 void require_history(bool there, const Picture& picture) {
@@ -128,27 +155,43 @@ json picture_of_query(const std::vector<std::pair<std::string, std::string>>& qu
 }
 
 void require_drawable(const Request& request, const PictureCall& call, const Limits& limits) {
-  require_few(std::round(expected_points(request)), *call.picture, limits);
+  Subject subject;
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
     for (const SourceGroup& group : analyze->groups) {
       require_history(is_optimized(group.sets.front()), *call.picture);
       require_torus(domain_of(group.sets.front()), *call.picture);
+      for (const PointSource& set : group.sets) subject.add(expected_points(set), domain_of(set));
     }
-    return;
+  } else {
+    const auto* optimize = std::get_if<OptimizeRequest>(&request.operation);
+    require_history(optimize != nullptr, *call.picture);
+    const Domain& domain = optimize != nullptr ? domain_of(optimize->points)
+                                               : *std::get<GenerateRequest>(request.operation).domain;
+    require_torus(domain, *call.picture);
+    subject.add(expected_points(request), domain);
   }
-  require_history(std::holds_alternative<OptimizeRequest>(request.operation), *call.picture);
+  require_size(subject, call, limits);
 }
 
 Drawing draw_result(const Result& result, const PictureCall& call, const Limits& limits,
                     const Control& control) {
   std::vector<PictureGroup> groups;
+  Subject subject;
   for (const ResultGroup& group : result.groups) {
     groups.push_back({group.label, group.sets, history_of(result, groups.size()), group.sizing.sizing.get()});
-    require_few(static_cast<double>(group.sets.front().size()), *call.picture, limits);
+    for (const PointSet& set : group.sets) subject.add(static_cast<double>(set.size()), *set.domain);
     require_history(!groups.back().history.empty(), *call.picture);
     require_torus(*group.sets.front().domain, *call.picture);
   }
-  return call.picture->make(groups, call.arguments, control);
+  require_size(subject, call, limits);
+  try {
+    return call.picture->make(groups, call.arguments, control);
+  } catch (const Error& error) {
+    const auto named = [&](const Parameter& p) { return error.where() == "/" + p.name; };
+    const auto& parameters = call.picture->parameters;
+    if (std::none_of(parameters.begin(), parameters.end(), named)) throw;
+    throw error.within("/picture");
+  }
 }
 
 ordered_json picture_schema() {

@@ -32,7 +32,7 @@ nlohmann::json picture_of_query(const std::vector<std::pair<std::string, std::st
 bool is_picture_parameter(std::string_view name);
 
 /// Before the work. Errors at /picture: invalid_parameters if what is asked for won't have what the picture
-/// shows; too_large for more points than the limit.
+/// shows; too_large for more points than the limits, or at /picture/range for more memory.
 void require_drawable(const Request& request, const PictureCall& call, const Limits& limits);
 
 /// Draws a result. Errors: those of require_drawable and of the picture.

@@ -87,7 +87,12 @@ std::string write_picture(const Result& result, Format format, const nlohmann::j
   const PictureCall call =
       read_picture(picture.is_null() ? nlohmann::json(result.picture) : picture, "/picture");
   const Drawing drawing = draw_result(result, call, limits, control);
-  return format == Format::svg ? to_svg(drawing) : to_png(drawing, call.scale);
+  if (format == Format::svg) return to_svg(drawing);
+  try {
+    return to_png(drawing, call.scale);
+  } catch (const Error& error) {
+    throw error.where() == "/scale" ? error.within("/picture") : error;
+  }
 }
 
 }  // namespace

@@ -124,6 +124,39 @@ TEST(RequireDrawable, LimitsThePointsThatAreDrawn) {
                  "limit of 1000");
 }
 
+TEST(RequireDrawable, CountsAllSetsTogether) {
+  Limits limits;
+  limits.picture_points = 100;
+  const auto request = [](int sets) {
+    return read("analyze", R"({"points":{"generate":{"count":100}},"seeds":)" + std::to_string(sets) + "}");
+  };
+  const PictureCall points = read_picture("points", "");
+  EXPECT_NO_THROW(require_drawable(request(10), points, limits));
+  expect_refused([&] { require_drawable(request(11), points, limits); }, ErrorCode::too_large, "/picture",
+                 "fewer points or sets");
+}
+
+TEST(RequireDrawable, LimitsTheMemory) {
+  const PictureCall wide = read_picture({{"name", "periodogram"}, {"range", 12}}, "/picture");
+  const Request thin = read("generate", R"({"count":900000,"domain":{"width":30}})");
+  expect_refused([&] { require_drawable(thin, wide, {}); }, ErrorCode::too_large, "/picture/range",
+                 "smaller range");
+  const Result result = run("generate", R"({"method":"white-noise","count":300,"domain":{"width":1000}})");
+  Limits limits;
+  limits.memory_bytes = 10 << 20;
+  expect_refused([&] { draw_result(result, wide, limits, Control()); }, ErrorCode::too_large,
+                 "/picture/range", "above the limit of 10");
+}
+
+TEST(DrawResult, SaysWhichParameterIsBad) {
+  const PictureCall even = read_picture({{"name", "differential"}, {"pixels", 100}}, "/picture");
+  expect_refused([&] { draw_result(run("generate", R"({"count":30})"), even, {}, Control()); },
+                 ErrorCode::invalid_parameters, "/picture/pixels", "odd");
+  const PictureCall voronoi = read_picture("voronoi", "/picture");
+  expect_refused([&] { draw_result(run("generate", R"({"count":2})"), voronoi, {}, Control()); },
+                 ErrorCode::degenerate_input, "", "at least 3");
+}
+
 TEST(PictureSchema, NamesEveryPictureAndParameter) {
   const auto schema = picture_schema();
   ASSERT_EQ(schema["oneOf"].size(), pictures().size() + 1);

@@ -27,6 +27,9 @@ struct Picture : Method {
   /// bad one; those of the measure that is drawn; cancelled, deadline_exceeded. Determinism: the same bytes
   /// on any number of threads.
   Drawing (*make)(std::span<const PictureGroup>, const Arguments&, const Control&) = nullptr;
+  /// The most memory it takes for sets of n points on a domain of that aspect ratio (>= 1), where that is
+  /// more than a few times the points'.
+  double (*bytes)(double n, double aspect, const Arguments&) = nullptr;
   bool draws_each_point = false;
   bool needs_torus = false;    ///< it means nothing on another domain
   bool needs_history = false;  ///< of an optimizer

@@ -13,8 +13,7 @@ namespace {
 
 constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px = 440, overview_px = 340;
 /// What the oscillations need; not worth it for the largest sets.
-constexpr double full_range = 6.5;
-constexpr std::size_t most_points_in_full = 200'000;
+constexpr double full_range = 6.5, most_in_full = 3000;
 
 Parameter range_parameter(double fallback) {
   Parameter p;
@@ -86,14 +85,29 @@ Drawing make_periodogram(std::span<const PictureGroup> groups, const Arguments& 
 
 // ---- the curves
 
+/// So far that the oscillations can be told, where that is not too far.
+double computed_range(double n, double aspect, double range) {
+  return k_max_of(n, aspect, full_range) <= most_in_full ? std::max(range, full_range) : range;
+}
+
+/// Of a periodogram, and of two results where sets are averaged.
+double bytes_of(double n, double aspect, double range) {
+  const double k_max = k_max_of(n, aspect, range);
+  if (!(k_max <= largest_k_max)) return 1e30;
+  return static_cast<double>(periodogram_bytes(static_cast<std::size_t>(n), static_cast<int>(k_max), 8)) +
+         16 * k_max * k_max;
+}
+
 struct Curves {
   Spectrum spectrum;
   Series power, anisotropy;
 };
 
 Curves curves_of(const PictureGroup& group, double range, const Control& control) {
-  const bool full = group.sets.front().size() <= most_points_in_full;
-  const double computed = full ? std::max(range, full_range) : range;
+  const PointSet& first = group.sets.front();
+  const Vec3 sides = first.domain->box().size;
+  const double aspect = std::max(sides.x / sides.y, sides.y / sides.x);
+  const double computed = computed_range(static_cast<double>(first.size()), aspect, range);
   Curves curves{
       spectrum(mean_periodogram(group.sets, computed, control), static_cast<int>(group.sets.size())), {}, {}};
   const Spectrum& s = curves.spectrum;
@@ -226,6 +240,9 @@ Picture overview_picture() {
       "latter averaged over the group's sets.";
   picture.parameters = {size_parameter(overview_px)};
   picture.make = make_overview;
+  picture.bytes = [](double n, double aspect, const Arguments&) {
+    return bytes_of(n, aspect, computed_range(n, aspect, curve_range));
+  };
   picture.draws_each_point = true;
   picture.needs_torus = true;
   return picture;
@@ -238,6 +255,9 @@ Picture periodogram_picture() {
   picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
   picture.parameters = {range_parameter(image_range), size_parameter(image_px)};
   picture.make = make_periodogram;
+  picture.bytes = [](double n, double aspect, const Arguments& arguments) {
+    return 2 * bytes_of(n, aspect, range_of(arguments, image_range));  // and the image
+  };
   picture.needs_torus = true;
   return picture;
 }
@@ -249,6 +269,9 @@ Picture spectrum_picture() {
   picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
   picture.parameters = {range_parameter(curve_range), size_parameter(curves_px)};
   picture.make = make_spectrum;
+  picture.bytes = [](double n, double aspect, const Arguments& arguments) {
+    return bytes_of(n, aspect, computed_range(n, aspect, range_of(arguments, curve_range)));
+  };
   picture.needs_torus = true;
   return picture;
 }
