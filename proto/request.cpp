@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/domain/torus.h"
@@ -58,14 +59,24 @@ std::vector<MeasureCall> measures_field(Fields& fields) {
   return calls;
 }
 
+/// How many points a set will have, where that is known before the work: not what a radius gives, nor how
+/// many points fill holes.
+std::optional<double> known_size(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from))
+    return argument(generated->arguments, "count");
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return (*optimized)->enrich ? std::nullopt : known_size((*optimized)->points);
+  return static_cast<double>(std::get<PointSet>(source.from).size());
+}
+
 /// Sets of one group are of one size and domain: what is known of them before the work.
 void require_alike(const SourceGroup& group) {
-  const PointSource& first = group.sets.front();
+  std::optional<double> size;
   for (const PointSource& set : group.sets) {
-    require_same_domain(domain_of(first), domain_of(set), set.pointer);
-    const bool known =
-        std::holds_alternative<PointSet>(first.from) && std::holds_alternative<PointSet>(set.from);
-    if (known) require_same_size(expected_points(first), expected_points(set), set.pointer);
+    require_same_domain(domain_of(group.sets.front()), domain_of(set), set.pointer);
+    const std::optional<double> known = known_size(set);
+    if (size && known) require_same_size(*size, *known, set.pointer);
+    if (known) size = known;
   }
 }
 

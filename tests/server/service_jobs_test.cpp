@@ -217,6 +217,10 @@ TEST_F(ServiceJobs, ResultsHaveTagsAndRangesAndHeads) {
   const std::string tag = whole.header("ETag");
   EXPECT_THAT(tag, StartsWith("\""));
   EXPECT_NE(caller.get(path + "?format=csv").header("ETag"), tag);
+  std::set<std::string> pictures;
+  for (const char* query : {"?format=svg", "?format=svg&picture=delaunay", "?format=svg&picture=points",
+                            "?format=svg&picture=points&picture.color=area", "?format=png&picture=points"})
+    EXPECT_TRUE(pictures.insert(caller.get(path + query).header("ETag")).second) << query;
   EXPECT_EQ(caller.get(path + "?format=npy", {{"If-None-Match", tag}}).status, 304);
   EXPECT_EQ(caller.get(path + "?format=csv", {{"If-None-Match", tag}}).status, 200);
   const Answer head = caller.head(path + "?format=npy");

@@ -72,15 +72,24 @@ TEST_F(Service, GeneratesWithEveryMethodOfItsList) {
   }
 }
 
+/// Several sets, groups, measures and a picture of all of it.
+std::string analyze_request() {
+  return R"({"compare":[{"label":"a","points":{"generate":{"count":300}},"seeds":3},
+                        {"label":"b","points":{"optimize":{"points":{"generate":{"count":200}},"beta":0.8}}}],
+             "measures":["spacing","certificate","distributions","local","spectrum",
+                         {"measure":"periodogram","range":1},"pair-correlation","discrepancy","bond-order",
+                         "zone-plate","differential"],"picture":"overview"})";
+}
+
 /// One request by all three ways, in one format.
-void expect_same_bytes(const std::string& format, unsigned threads,
+void expect_same_bytes(const std::string& operation, const std::string& format, unsigned threads,
                        std::map<std::string, std::string>& first) {
   ServedApp app([&](Config& config) { config.threads = threads; });
   const Caller caller(app.port());
-  const std::string body = optimize_request(400, 0.85, 8);
-  const Answer sync = caller.post("/v1/optimize?format=" + format, body);
+  const std::string body = operation == "analyze" ? analyze_request() : optimize_request(400, 0.85, 8);
+  const Answer sync = caller.post("/v1/" + operation + "?format=" + format, body);
   ASSERT_EQ(sync.status, 200) << sync.body;
-  const std::string id = caller.submit("optimize", body);
+  const std::string id = caller.submit(operation, body);
   ASSERT_EQ(caller.finished(id)["status"], "successful");
   const Answer later = caller.get("/v1/jobs/" + id + "/result?format=" + format);
   EXPECT_EQ(later.body, sync.body);
@@ -91,18 +100,26 @@ void expect_same_bytes(const std::string& format, unsigned threads,
   support::write_file(directory / "request.json", body);
   const std::string output = directory / ("out." + format);
   Process run(
-      {"run", "optimize", directory / "request.json", "-o", output, "--threads", std::to_string(threads)});
+      {"run", operation, directory / "request.json", "-o", output, "--threads", std::to_string(threads)});
   EXPECT_EQ(run.wait(), 0) << run.err();
   EXPECT_EQ(support::read_file(output), sync.body);
-  const auto [known, fresh] = first.emplace(format, sync.body);
+  const auto [known, fresh] = first.emplace(operation + "." + format, sync.body);
   EXPECT_TRUE(fresh || known->second == sync.body) << format << " differs with " << threads << " threads";
 }
 
 TEST(ServiceBytes, AreTheSameSyncAsyncAndFromTheCommandLineWithOneAndTwoThreads) {
   std::map<std::string, std::string> first;
   for (const unsigned threads : {1u, 2u})
-    for (const char* format : {"json", "npy", "csv", "svg"}) expect_same_bytes(format, threads, first);
-  EXPECT_EQ(first.size(), 4u);
+    for (const char* format : {"json", "npy", "csv", "svg", "png"})
+      expect_same_bytes("optimize", format, threads, first);
+  EXPECT_EQ(first.size(), 5u);
+}
+
+TEST(ServiceBytes, OfAnAnalysisAreTheSameToo) {
+  std::map<std::string, std::string> first;
+  for (const unsigned threads : {1u, 2u})
+    for (const char* format : {"json", "svg", "png"}) expect_same_bytes("analyze", format, threads, first);
+  EXPECT_EQ(first.size(), 3u);
 }
 
 TEST_F(Service, AnswersInTheFormatOfAcceptAndTheQueryWins) {
@@ -118,6 +135,39 @@ TEST_F(Service, AnswersInTheFormatOfAcceptAndTheQueryWins) {
   const Answer svg = caller.post("/v1/generate?picture=delaunay", body, {{"Accept", "image/svg+xml"}});
   EXPECT_EQ(svg.header("Content-Type"), "image/svg+xml");
   EXPECT_THAT(svg.body, HasSubstr("<svg"));
+  const Answer png = caller.post("/v1/generate?picture=points&picture.color=area&picture.scale=0.5", body,
+                                 {{"Accept", "image/png"}});
+  EXPECT_EQ(png.header("Content-Type"), "image/png");
+  EXPECT_THAT(png.body, StartsWith("\x89PNG"));
+}
+
+TEST_F(Service, ComparesAndAveragesInOneRequest) {
+  const Answer answer = caller.post("/v1/analyze", analyze_request());
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const json compared = answer.parsed()["compare"];
+  ASSERT_EQ(compared.size(), 2u);
+  EXPECT_EQ(compared[0]["sets"], 3);
+  EXPECT_EQ(compared[0]["label"], "a");
+  EXPECT_LE(compared[1]["certificate"]["beta_upper"].get<double>(), 0.8);
+  EXPECT_TRUE(compared[1]["optimized"][0]["converged"]);
+}
+
+TEST_F(Service, AveragesOverKeptResults) {
+  json sets = json::array();
+  for (const int seed : {1, 2}) {
+    const std::string id = caller.submit("optimize", optimize_request(200, 0.85, seed));
+    ASSERT_EQ(caller.finished(id)["status"], "successful");
+    sets.push_back({{"job", id}});
+  }
+  const Answer answer = caller.post("/v1/analyze", json{{"sets", sets}, {"measures", {"spectrum"}}}.dump());
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  EXPECT_EQ(answer.parsed()["sets"], 2);
+  // What looked at several sets is no point set itself.
+  const std::string several = caller.submit("analyze", json{{"sets", sets}}.dump());
+  ASSERT_EQ(caller.finished(several)["status"], "successful");
+  const Answer refused = caller.post("/v1/analyze", json{{"points", {{"job", several}}}}.dump());
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.parsed()["errors"][0]["pointer"], "/points/job");
 }
 
 TEST_F(Service, RefusesFormatsItDoesNotHaveWithTheListOfThoseItHas) {
