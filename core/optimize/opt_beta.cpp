@@ -41,9 +41,15 @@ void require_options(const OptBetaOptions& o) {
     throw Error(ErrorCode::invalid_parameters, "at least one visit a point is needed", "/max_visits");
 }
 
-/// Of a stage's sweeps: 1, 8, 64 and then twice as many each time. To measure takes as long as a sweep.
-bool is_recorded(int sweep) {
-  return sweep == 1 || sweep == 8 || (sweep >= 64 && (sweep & (sweep - 1)) == 0);
+/// Which of a stage's sweeps are measured, which takes as long as a sweep: for a curve of a few steps an
+/// octave where that takes no time to speak of, for large sets only 1, 8, 64 and then twice as many each
+/// time.
+bool is_recorded(int sweep, std::size_t n) {
+  constexpr std::size_t few_points = 5'000;
+  const auto is_power_of_two = [](int k) { return (k & (k - 1)) == 0; };
+  if (n <= few_points)
+    return is_power_of_two(sweep) || (sweep % 3 == 0 && is_power_of_two(sweep / 3)) || sweep % 64 == 0;
+  return sweep == 1 || sweep == 8 || (sweep >= 64 && is_power_of_two(sweep));
 }
 
 class Descent {
@@ -144,7 +150,7 @@ class Descent {
         flips_ += static_cast<double>(mesh_.legalize_all(control_));
         if (!mesh_.any_marked()) return true;
       }
-      if (is_recorded(sweep))
+      if (is_recorded(sweep, mesh_.size()))
         record();
       else
         report(history_.back());

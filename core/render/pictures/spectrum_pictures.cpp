@@ -205,8 +205,10 @@ Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arg
 /// Points and periodogram side by side, the curves below: one row of both for each group.
 Drawing overview_panel(const PictureGroup& group, Curves curves, const Limits& limits, double size_px,
                        const Control& control) {
-  Drawing points = with_margin(plain_points(group.sets.front(), size_px, control), 12);
   Drawing image = periodogram_panel({"", group.sets, {}}, image_range, size_px, control);
+  constexpr double around_image_px = 78;  // of its axis and its right side
+  Drawing points =
+      with_margin(plain_points(group.sets.front(), image.width_px - around_image_px, control), 12);
   Drawing above = grid_of({std::move(points), std::move(image)}, 2, 4);
   Drawing below = spectrum_panel({"", group.sets, {}}, std::move(curves), limits, above.width_px - 90);
   return with_caption(stack_of({std::move(above), std::move(below)}, 4), group.label);
