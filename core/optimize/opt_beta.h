@@ -46,11 +46,12 @@ int expected_visits(const OptBetaOptions& options);
 /// a visit a point.
 ///
 /// Guarantees: those of OptimizeResult; points that violate nothing on the way are returned bit for bit.
-/// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage, a sweep visiting only points that are
-/// marked. Errors: those of opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits;
-/// cancelled, deadline_exceeded. Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to
-/// .75, 40 to .70 where fast, 15, 40 and 45 where gentle; 110 bytes a point. Determinism: the same bits on
-/// any number of threads; visits, not time, end it.
+/// `history` holds the sweeps 0, 1, 8, 64, 128, 256 ... of each stage (of sets up to 5000 points also 2, 3,
+/// 4, 6, 8, 12 ... and every 64th), a sweep visiting only points that are marked. Errors: those of
+/// opt_beta_local; infeasible or invalid_parameters at /beta, /max_visits; cancelled, deadline_exceeded.
+/// Cost: about 0.1 us a visit; from MPS about 10 visits a point to .788, 20 to .75, 40 to .70 where fast, 15,
+/// 40 and 45 where gentle; 110 bytes a point. Determinism: the same bits on any number of threads; visits,
+/// not time, end it.
 OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Control& control);
 
 }  // namespace wellspaced
