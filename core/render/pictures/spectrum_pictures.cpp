@@ -184,9 +184,10 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& l
   return with_caption(std::move(panel), group.label);
 }
 
-Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arguments,
-                      const Control& control) {
-  const double range = range_of(arguments, curve_range), width_px = size_px_of(arguments, curves_px);
+/// The curves of all groups, on axes that all of them fit on, each drawn by panel(group, curves, limits).
+template <class Panel>
+Drawing drawn_alike(std::span<const PictureGroup> groups, double range, const Control& control,
+                    const Panel& panel) {
   std::vector<Curves> curves;
   std::vector<Series> powers;
   for (const PictureGroup& group : groups) {
@@ -196,8 +197,17 @@ Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arg
   const Limits limits{range, round_high(powers, 1.9, 8), highest_db(curves)};
   std::vector<Drawing> panels;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    panels.push_back(spectrum_panel(groups[g], std::move(curves[g]), limits, width_px));
+    panels.push_back(panel(groups[g], std::move(curves[g]), limits));
   return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
+}
+
+Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arguments,
+                      const Control& control) {
+  const double width_px = size_px_of(arguments, curves_px);
+  return drawn_alike(groups, range_of(arguments, curve_range), control,
+                     [&](const PictureGroup& group, Curves curves, const Limits& limits) {
+                       return spectrum_panel(group, std::move(curves), limits, width_px);
+                     });
 }
 
 // ---- everything at once
@@ -217,17 +227,10 @@ Drawing overview_panel(const PictureGroup& group, Curves curves, const Limits& l
 Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arguments,
                       const Control& control) {
   const double size_px = size_px_of(arguments, overview_px);
-  std::vector<Curves> curves;
-  std::vector<Series> powers;
-  for (const PictureGroup& group : groups) {
-    curves.push_back(curves_of(group, curve_range, control));
-    powers.push_back(curves.back().power);
-  }
-  const Limits limits{curve_range, round_high(powers, 1.9, 8), highest_db(curves)};
-  std::vector<Drawing> panels;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    panels.push_back(overview_panel(groups[g], std::move(curves[g]), limits, size_px, control));
-  return with_margin(grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), 16);
+  return drawn_alike(groups, curve_range, control,
+                     [&](const PictureGroup& group, Curves curves, const Limits& limits) {
+                       return overview_panel(group, std::move(curves), limits, size_px, control);
+                     });
 }
 
 }  // namespace

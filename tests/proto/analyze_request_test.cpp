@@ -1,0 +1,178 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "proto/request.h"
+#include "tests/support/refusals.h"
+
+namespace wellspaced {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::expect_refusal;
+using testing::expect_refusals;
+using testing::invalid;
+using testing::read;
+using testing::read_table;
+
+const AnalyzeRequest& analyze_of(const Request& request) {
+  return std::get<AnalyzeRequest>(request.operation);
+}
+
+std::vector<std::uint64_t> seeds_of(const SourceGroup& group) {
+  std::vector<std::uint64_t> seeds;
+  for (const PointSource& source : group.sets) {
+    const auto* generate = std::get_if<GenerateRequest>(&source.from);
+    if (generate == nullptr)
+      generate = &std::get<GenerateRequest>(
+          std::get<std::shared_ptr<const OptimizeRequest>>(source.from)->points.from);
+    seeds.push_back(generate->seed);
+  }
+  return seeds;
+}
+
+TEST(ReadRequest, TakesSeveralSeedsOfOneSource) {
+  const Request generated = read("analyze", R"({"points":{"generate":{"count":10,"seed":7}},"seeds":3})");
+  ASSERT_EQ(analyze_of(generated).groups.size(), 1u);
+  EXPECT_THAT(seeds_of(analyze_of(generated).groups[0]), ElementsAre(7, 8, 9));
+  const Request optimized =
+      read("analyze", R"({"points":{"optimize":{"points":{"generate":{"count":10}},"beta":0.8}},"seeds":2})");
+  EXPECT_THAT(seeds_of(analyze_of(optimized).groups[0]), ElementsAre(0, 1));
+  EXPECT_EQ(expected_points(optimized), 10);
+}
+
+TEST(ReadRequest, TakesSetsFromAnySource) {
+  const Request request =
+      read("analyze",
+           R"({"sets":[[[0,0],[1.5,0],[0,0.5]],{"points":[[0,0.1],[0.5,0],[0,0.5]],"domain":{"width":2}},
+          {"job":"known"},{"generate":{"count":3,"domain":{"width":2}}},
+          {"optimize":{"points":[[0,0.2],[1.5,0],[0,0.5]],"domain":{"width":2}}}],"domain":{"width":2}})");
+  const SourceGroup& group = analyze_of(request).groups.at(0);
+  ASSERT_EQ(group.sets.size(), 5u);
+  EXPECT_EQ(std::get<PointSet>(group.sets[0].from).coordinates[2], 1.5);
+  EXPECT_EQ(std::get<PointSet>(group.sets[1].from).coordinates[1], 0.1);
+  EXPECT_EQ(std::get<PointSet>(group.sets[2].from).coordinates, testing::points_of_a_job().coordinates);
+  const auto& optimize = *std::get<std::shared_ptr<const OptimizeRequest>>(group.sets[4].from);
+  EXPECT_EQ(std::get<PointSet>(optimize.points.from).coordinates[1], 0.2);
+  EXPECT_EQ(optimize.pointer, "/sets/4/optimize");
+  EXPECT_EQ(optimize.points.pointer, "/sets/4/optimize/points");
+}
+
+TEST(ReadRequest, TakesGroupsToCompare) {
+  const Request request =
+      read("analyze", R"({"compare":[{"label":"a","points":{"generate":{"count":10}},"seeds":2},
+                                {"sets":[[[0,0],[0.5,0],[0,0.5]]]}],"measures":["spacing","spectrum"]})");
+  const AnalyzeRequest& analyze = analyze_of(request);
+  EXPECT_TRUE(analyze.compares);
+  ASSERT_EQ(analyze.groups.size(), 2u);
+  EXPECT_EQ(analyze.groups[0].label, "a");
+  EXPECT_EQ(analyze.groups[0].sets.size(), 2u);
+  EXPECT_EQ(analyze.groups[1].label, "");
+  EXPECT_EQ(analyze.groups[1].pointer, "/compare/1/sets");
+}
+
+TEST(ReadRequest, RefusesSetsThatCannotBeAveraged) {
+  const std::string three = "[[0,0],[0.5,0],[0,0.5]]", four = "[[0,0],[0.5,0],[0,0.5],[0.5,0.5]]";
+  const std::string generate = R"("points":{"generate":{"count":10}})";
+  expect_refusals({
+      {"analyze", "{\"sets\":[" + three + "," + four + "]}", invalid, "/sets/1",
+       "this set has 4 points, the first one 3"},
+      {"analyze", "{\"sets\":[" + three + ",{\"job\":\"known\"}]}", invalid, "/sets/1", "another domain"},
+      {"analyze", R"({"sets":[]})", invalid, "/sets", "1 to 1000"},
+      {"analyze", R"({"sets":{}})", invalid, "/sets", "array"},
+      {"analyze", R"({"sets":[7]})", invalid, "/sets/0", "expected an object, found the number 7"},
+      {"analyze", R"({"sets":[[[0,0],[0.5,0]]]})", ErrorCode::degenerate_input, "/sets/0", "at least 3"},
+      {"analyze", R"({"sets":[[[0,0],[0.5,0],[2,0]]]})", invalid, "/sets/0/2", "outside"},
+      {"analyze", R"({"sets":[{"generate":{"count":10,"kind":1}}]})", invalid, "/sets/0/generate/kind",
+       "count"},
+      {"analyze", R"({"sets":[{"generate":{"count":10}}],"domain":{}})", invalid, "/domain",
+       "their own domain"},
+      {"analyze", "{" + generate + R"(,"sets":[]})", invalid, "/points", "either sets, or points"},
+      {"analyze", "{\"sets\":[" + three + R"(],"seeds":2})", invalid, "/seeds", "either sets, or points"},
+      {"analyze", "{" + generate + R"(,"seeds":0})", invalid, "/seeds", "[1, 1000]"},
+      {"analyze", "{" + generate + R"(,"seeds":1001})", invalid, "/seeds", "[1, 1000]"},
+      {"analyze", "{\"points\":" + three + R"(,"seeds":2})", invalid, "/seeds", "only generated points"},
+      {"analyze", R"({"points":{"generate":{"method":"square","count":9}},"seeds":2})", invalid, "/seeds",
+       "square takes no seed"},
+      {"analyze", R"({"points":{"generate":{"count":1000000}},"seeds":11})", ErrorCode::too_large, "/points",
+       "about 11000000 points together"},
+      {"optimize", "{" + generate + R"(,"seeds":2})", invalid, "/seeds", "unknown field"},
+  });
+}
+
+TEST(ReadRequest, RefusesComparisonsThatAreNone) {
+  const std::string one = R"({"points":{"generate":{"count":10}}})";
+  expect_refusals({
+      {"analyze", R"({"compare":[]})", invalid, "/compare", "1 to 16"},
+      {"analyze", R"({"compare":[7]})", invalid, "/compare/0", "expected an object"},
+      {"analyze", R"({"compare":[{}]})", invalid, "/compare/0/points", "missing"},
+      {"analyze", "{\"compare\":[" + one + R"(],"points":[]})", invalid, "/points", "brings its own points"},
+      {"analyze", "{\"compare\":[" + one + R"(],"seeds":2})", invalid, "/seeds", "brings its own points"},
+      {"analyze", R"({"compare":[{"points":{"generate":{"count":10}},"name":"x"}]})", invalid,
+       "/compare/0/name", "label"},
+      {"analyze",
+       R"({"compare":[{"points":{"generate":{"count":10}},"label":")" + std::string(61, 'x') + "\"}]}",
+       invalid, "/compare/0/label", "60"},
+  });
+}
+
+TEST(ReadRequest, ReadsParametersOfMeasures) {
+  const Request json = read("analyze", R"({"points":{"generate":{"count":10}},
+      "measures":["spacing",{"measure":"spectrum","range":2.5}]})");
+  const Request table = read_table("analyze", "text/csv", "0,0\n0.5,0\n0,0.5\n",
+                                   {{"measures", "spacing,spectrum"}, {"spectrum.range", "2.5"}});
+  for (const Request* request : {&json, &table}) {
+    const auto& calls = analyze_of(*request).measures;
+    ASSERT_EQ(calls.size(), 2u);
+    EXPECT_EQ(calls[1].measure->name, "spectrum");
+    EXPECT_EQ(argument(calls[1].arguments, "range"), 2.5);
+  }
+  const std::string generate = R"({"points":{"generate":{"count":10}},"measures":[)";
+  expect_refusals({
+      {"analyze", generate + R"({"measure":"spectrum","range":0}]})", invalid, "/measures/0/range",
+       "[0.1, 1000]"},
+      {"analyze", generate + R"("spacing",{"measure":"spectrum","rnage":1}]})", invalid, "/measures/1/rnage",
+       "measure, range"},
+      {"analyze", generate + R"({"range":1}]})", invalid, "/measures/0/measure", "one of: spacing"},
+      {"analyze", generate + R"({"measure":"taste"}]})", invalid, "/measures/0/measure", "unknown name"},
+      {"analyze", generate + R"("spectrum",{"measure":"spectrum"}]})", invalid, "/measures/1", "twice"},
+  });
+  expect_refusal(
+      [] {
+        read_table("analyze", "text/csv", "0,0\n0.5,0\n0,0.5\n", {{"spectrum.range", "2.5"}});
+      },
+      {"analyze", "spectrum.range alone", invalid, "/spectrum", "unknown field"});
+}
+
+TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
+  const std::string million = R"({"points":{"generate":{"count":1000000}},"measures":[)";
+  EXPECT_NO_THROW(read("analyze", million + "\"spectrum\"]}"));
+  expect_refusals({
+      {"analyze", million + R"({"measure":"spectrum","range":12}]})", ErrorCode::too_large,
+       "/measures/0/range", "but the limit here is 4096 MiB; ask for a range of at most"},
+      {"analyze", million + R"("spacing",{"measure":"periodogram","range":1000}]})", ErrorCode::too_large,
+       "/measures/1/range", "ask for a range of at most"},
+  });
+}
+
+class Disk final : public Torus {
+ public:
+  std::string_view type() const override { return "disk"; }
+};
+
+TEST(RequireMeaning, RefusesSpectraWhereNothingRepeats) {
+  for (const Measure& measure : measures()) {
+    EXPECT_NO_THROW(require_meaning(measure, Torus(), "/measures/0"));
+    if (measure.needs_torus) {
+      expect_refusal([&] { require_meaning(measure, Disk(), "/measures/0"); },
+                     {"analyze", measure.name, invalid, "/measures/0", "means nothing on a disk"});
+    } else {
+      EXPECT_NO_THROW(require_meaning(measure, Disk(), "/measures/0"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wellspaced
