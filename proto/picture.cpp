@@ -116,7 +116,7 @@ std::vector<SweepRecord> history_of(const Result& result, std::size_t group) {
 
 PictureCall read_picture(const json& value, const std::string& where) {
   PictureCall call;
-  if (value.is_null() || value == "") {
+  if (value.is_null() || (value.is_string() && value.get_ref<const std::string&>().empty())) {
     call.picture = &pictures().front();
     return call;
   }

@@ -13,7 +13,9 @@ namespace {
 constexpr double left_px = 62, right_px = 16, bottom_px = 46, top_px = 12, tick_size_px = 12,
                  title_size_px = 13, legend_row_px = 20, swatch_px = 22, heading_px = 22;
 
-std::string with_minus(std::string text) { return text.starts_with('-') ? "−" + text.substr(1) : text; }
+std::string with_minus(const std::string& text) {
+  return text.starts_with('-') ? "−" + text.substr(1) : text;
+}
 
 /// With so many digits behind the point.
 std::string fixed_text(double value, int decimals) {

@@ -35,7 +35,8 @@ Drawing grid_of(std::vector<Drawing> panels, std::size_t columns, double gap_px)
       across * width + (across - 1) * gap_px, down * height + (down - 1) * gap_px, joined_titles(panels), {}};
   grid.draw = [panels = std::move(panels), columns, width, height, gap_px](Canvas& canvas) {
     for (std::size_t i = 0; i < panels.size(); ++i) {
-      const auto column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
+      const std::size_t row_number = i / columns;
+      const auto column = static_cast<double>(i % columns), row = static_cast<double>(row_number);
       draw_at(panels[i],
               {column * (width + gap_px) + (width - panels[i].width_px) / 2, row * (height + gap_px)},
               canvas);
