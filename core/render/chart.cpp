@@ -80,14 +80,13 @@ class Painter {
     return {x_px(x), std::clamp(y_px(y), frame_.y - 1e4, frame_.bottom() + 1e4)};
   }
 
-  static std::vector<Tick> ticks_of(const Axis& axis, double length_px) {
-    if (!axis.ticks.empty()) return axis.ticks;
-    return round_ticks(axis.low, axis.high, std::max(2, static_cast<int>(length_px / 62)));
+  static std::vector<Tick> ticks_of(const Axis& axis, int count) {
+    return axis.ticks.empty() ? round_ticks(axis.low, axis.high, count) : axis.ticks;
   }
 
   void axes() {
-    const std::vector<Tick> across = ticks_of(chart_.x, frame_.width),
-                            up = ticks_of(chart_.y, 1.4 * frame_.height);
+    const std::vector<Tick> across = ticks_of(chart_.x, std::max(3, static_cast<int>(frame_.width / 62))),
+                            up = ticks_of(chart_.y, std::max(4, static_cast<int>(frame_.height / 44)));
     for (const Tick& t : across)
       canvas_.line({x_px(t.value), frame_.y}, {x_px(t.value), frame_.bottom()}, {grid_ink, 1});
     for (const Tick& t : up)
@@ -127,7 +126,7 @@ class Painter {
       outline.push_back(place(s.x[i + 1], s.y[i]));
     }
     outline.push_back(place(s.x.back(), 0));
-    canvas_.polygon(outline, {s.color, std::nullopt, 0.16});
+    if (s.fill > 0) canvas_.polygon(outline, {s.color, std::nullopt, s.fill});
     canvas_.polyline(outline, {std::nullopt, Pen{s.color, 1.6, s.dash_px}});
   }
 
@@ -198,15 +197,28 @@ double round_high(const std::vector<Series>& series, double least, double most) 
 
 Drawing draw(Chart chart) {
   const double heading = chart.title.empty() ? 0 : heading_px;
-  const double legend = legend_rows(chart.series, chart.width_px).height_px;
+  const double legend = chart.legend ? legend_rows(chart.series, chart.width_px).height_px : 0;
   const Area frame{left_px, top_px + heading + legend, chart.width_px, chart.height_px};
   Drawing drawing{left_px + chart.width_px + right_px, frame.bottom() + bottom_px, chart.title, {}};
   drawing.draw = [chart = std::move(chart), frame, heading](Canvas& canvas) {
     canvas.text({frame.x + frame.width / 2, top_px + 8}, chart.title, {14, ink, Align::middle});
-    paint_legend(legend_rows(chart.series, chart.width_px), {frame.x, top_px - 4 + heading}, canvas);
+    if (chart.legend)
+      paint_legend(legend_rows(chart.series, chart.width_px), {frame.x, top_px - 4 + heading}, canvas);
     Painter(chart, frame, canvas).paint();
   };
   return drawing;
+}
+
+Drawing legend_of(const std::vector<Series>& series, double width_px) {
+  return {width_px, legend_rows(series, width_px).height_px, "", [series, width_px](Canvas& canvas) {
+            paint_legend(legend_rows(series, width_px), {left_px, 0}, canvas);
+          }};
+}
+
+Drawing with_legend(Drawing drawing, const std::vector<Series>& series) {
+  Drawing legend = legend_of(series, drawing.width_px - left_px);
+  if (legend.height_px == 0) return drawing;
+  return stack_of({std::move(legend), std::move(drawing)}, 0);
 }
 
 Drawing color_bar(ColorMap map, const Axis& axis, double width_px) {
@@ -236,7 +248,7 @@ Drawing color_bar(ColorMap map, const Axis& axis, double width_px) {
 }
 
 Drawing text_rows(std::vector<std::string> items, double width_px, double size_px) {
-  constexpr double gap_px = 18;
+  const double gap_px = 1.2 * size_px;
   const Font font;
   std::vector<std::pair<Vec2, std::string>> places;
   double x = 0, y = size_px, widest = 0;

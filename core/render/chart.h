@@ -28,6 +28,7 @@ struct Series {
   std::string label;  ///< for the legend; empty: none
   std::vector<double> x, y;
   Kind kind = Kind::line;
+  double fill = 0.16;  ///< opacity of what is below steps
   Rgb color = color_of_class(0);
   double dash_px = 0;
   bool marks = false;  ///< a dot at each point of a line
@@ -48,9 +49,16 @@ struct Chart {
   std::vector<Reference> references;
   std::string title;
   std::optional<Image> image = {};  ///< fills the frame
+  bool legend = true;               ///< of the series that have labels
 };
 
 Drawing draw(Chart chart);
+
+/// The legend of several charts with the same series, in rows of at most that width.
+Drawing legend_of(const std::vector<Series>& series, double width_px);
+
+/// With the legend above, if there is any.
+Drawing with_legend(Drawing drawing, const std::vector<Series>& series);
 
 /// A range from 0, or from the smallest value, to somewhat above the largest finite one, cut at `most`.
 double round_high(const std::vector<Series>& series, double least, double most);

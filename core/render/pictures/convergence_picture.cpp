@@ -63,6 +63,7 @@ Drawing chart_of(std::span<const PictureGroup> groups, const Quantity& quantity,
   for (std::size_t g = 0; g < groups.size(); ++g)
     chart.series.push_back(series_of(groups[g], quantity, g, groups.size() > 1));
   const auto [low, high] = limits_of(chart.series, last_sweep);
+  chart.legend = false;
   chart.x = {0, last_sweep, "sweep"};
   chart.y = {low, high, quantity.title};
   return draw(std::move(chart));
@@ -78,7 +79,10 @@ Drawing make(std::span<const PictureGroup> groups, const Arguments& arguments, c
   std::vector<Drawing> charts;
   for (const Quantity& quantity : quantities)
     charts.push_back(chart_of(groups, quantity, last_sweep, size_px));
-  Drawing sheet = grid_of(std::move(charts), 3, panel_gap_px);
+  std::vector<Series> legend;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    legend.push_back(series_of(groups[g], quantities[0], g, groups.size() > 1));
+  Drawing sheet = with_legend(grid_of(std::move(charts), 3, panel_gap_px), legend);
   sheet.title = "beta, coverage radius and conflict radius by sweep";
   return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
 }

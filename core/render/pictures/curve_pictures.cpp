@@ -134,21 +134,27 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
   const double width_px = size_px_of(arguments, histogram_px);
   std::vector<Distributions> all;
   for (const PictureGroup& group : groups) all.push_back(pooled(group, control));
+  constexpr std::size_t most_filled = 3;
   std::vector<Drawing> charts;
+  std::vector<Series> legend;
   for (const Quantity& quantity : quantities) {
     Chart chart;
     chart.width_px = width_px;
     chart.height_px = 0.7 * width_px;
+    chart.legend = false;
     chart.x = axis_of(all, quantity);
     const std::size_t together =
         quantity.whole ? 1 : bins_together(chart.x, (all[0].*quantity.histogram).width);
-    for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t g = 0; g < groups.size(); ++g) {
       chart.series.push_back(
           steps_of(all[g].*quantity.histogram, together, series_for(groups[g], g, groups.size())));
+      if (groups.size() > most_filled) chart.series.back().fill = 0;
+    }
     chart.y = {0, round_high(chart.series, 1e-6, 1e6), quantity.whole ? "share" : "density"};
+    legend = chart.series;
     charts.push_back(draw(std::move(chart)));
   }
-  Drawing sheet = grid_of(std::move(charts), 3, panel_gap_px);
+  Drawing sheet = with_legend(grid_of(std::move(charts), 3, panel_gap_px), legend);
   sheet.title = "distributions of beta_i, valences, angles, edges, nearest distances and cell areas";
   return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
 }
