@@ -68,6 +68,8 @@ def lead(short):
 
 
 def write(options, started):
+    """Makes the page; what is wrong with it."""
+    options.output.mkdir(parents=True, exist_ok=True)
     with server.running(options.program, *SETTINGS) as address:
         client = Client(address)
         version = client.operations()["version"]
@@ -76,7 +78,6 @@ def write(options, started):
     facts = [("command", "./dev reproduce" + (" --short" if options.short else "")), ("version of the service", version),
              ("commit of the sources", commit()), ("CPU", f"{cpu_model()}, {os.cpu_count()} cores"), ("total", f"{total:.1f} s")]
     page = report.page(f"{paper.TITLE}: reproduced", lead(options.short), sections, facts)
-    options.output.mkdir(parents=True, exist_ok=True)
     path = options.output / "report.html"
     path.write_text(page, encoding="utf-8")
     print(f"{total:7.1f} s  in all: {path} ({len(page.encode()) / 1e6:.1f} MB)", flush=True)
@@ -93,7 +94,7 @@ def main():
     signal.signal(signal.SIGTERM, stop)
     try:
         faults = write(options, time.perf_counter())
-    except (Problem, server.ServerFailed) as error:
+    except (Problem, server.ServerFailed, OSError) as error:
         print(f"reproduce: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

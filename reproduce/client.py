@@ -1,5 +1,6 @@
 """The service's HTTP API, as far as the report needs it."""
 
+import http.client
 import json
 import time
 import urllib.error
@@ -10,6 +11,7 @@ from reproduce import bodies
 
 LARGEST_SVG_BYTES = 1_000_000
 PNG_SCALE = 2
+LONGEST_SECONDS = 3600
 
 
 class Problem(Exception):
@@ -83,6 +85,8 @@ class Job:
 class Client:
     def __init__(self, address):
         self._address = address.rstrip("/")
+        # A proxy that is set for the outer world knows nothing of this machine's servers.
+        self._opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
     def get(self, path, **headers):
         return self._send(urllib.request.Request(self._address + path, headers=headers))
@@ -112,10 +116,12 @@ class Client:
         return json.loads(answer), time.perf_counter() - started
 
     def _send(self, request):
+        body = request.data.decode() if request.data else ""
+        sent = f"{request.get_method()} {request.selector} {body}".strip()
         try:
-            with urllib.request.urlopen(request) as answer:
+            with self._opener.open(request, timeout=LONGEST_SECONDS) as answer:
                 return answer.read()
         except urllib.error.HTTPError as error:
-            said = request.data.decode() if request.data else ""
-            raise Problem(problem_document(error.read(), error.code),
-                          f"{request.get_method()} {request.selector} {said}".strip()) from None
+            raise Problem(problem_document(error.read(), error.code), sent) from None
+        except (OSError, http.client.HTTPException) as error:
+            raise Problem({"title": "The server doesn't answer", "detail": str(error)}, sent) from None

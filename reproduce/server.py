@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -25,6 +26,11 @@ def address_in(log):
     return None
 
 
+def own_environment(environment):
+    """Without settings that were meant for other servers."""
+    return {name: value for name, value in environment.items() if not name.startswith("WELLSPACED_")}
+
+
 def _wait_until_it_listens(process, log):
     end = time.monotonic() + START_SECONDS
     while time.monotonic() < end:
@@ -45,7 +51,7 @@ def running(program, *settings):
         with log.open("wb") as output:
             process = subprocess.Popen(
                 [program, "--listen", "127.0.0.1:0", "--store", f"{folder}/jobs.db", *settings, "serve"],
-                stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
+                env=own_environment(os.environ), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
         try:
             yield _wait_until_it_listens(process, log)
         finally:

@@ -20,14 +20,14 @@ def fill(context, section):
               if beta not in came_to]
     section.text(f"Power spectra averaged over K = {seeds} sets of {n} points from MPS; frequencies in units of \u221a(n / A), "
                  "white noise has power 1. Effective Nyquist frequency and oscillations are those of Heck, Schloemer and Deussen "
-                 "(2013); anisotropy is the mean over rings from 0.5 to 2.5, and -10 log10 K where nothing has a direction. "
+                 "(2013); anisotropy is the mean over rings from 0.5 to 2.5, and \u221210 log10 K where nothing has a direction. "
                  "psi6 is bond order in three variants, each 1 for the triangular lattice.")
     section.text(f"opt-beta-local is shown at the targets that all {seeds} sets reached within {context.sizes.local_sweeps} sweeps"
                  f"{'; not at ' + ', '.join(missed) if missed else ''}.")
+    show(section, references, "MPS, CVT and far-point")
     if local:
         show(section, local, "opt-beta-local")
     show(section, own, "opt-beta")
-    show(section, references, "MPS, CVT and far-point")
     groups = [*references.groups, *(local.groups if local else []), *own.groups]
     section.table(f"What the spectra say, K = {seeds}.", COLUMNS, [row(group) for group in groups])
     section.text(f"The paper's spectra: {paper.NOT_AVAILABLE}.")

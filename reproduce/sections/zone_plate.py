@@ -46,8 +46,8 @@ def fill(context, section):
                                                f"#rmse, {FINE:g} cycles"],
                   [row(*pair, optimized) for pair in zip(coarse.groups, fine.groups)])
     section.text(f"The paper's function, filter and errors: {paper.NOT_AVAILABLE}; the number of samples is its own.")
-    section.text("Where it differs: function and filter are this service's, so pictures compare in kind only. A small rmse "
-                 "is not the whole story: " + story(fine.groups), "differs")
+    section.text("Where it differs: function and filter are this service's, so pictures compare in kind only. "
+                 + story(coarse.groups, fine.groups), "differs")
     section.requests(*(job.curl() for job in optimized.values()),
                      "# the ids that those answered stand in these:", coarse.curl(), fine.curl())
 
@@ -58,8 +58,11 @@ def row(coarse, fine, optimized):
             number(coarse["zone-plate"]["rmse"], 4), number(fine["zone-plate"]["rmse"], 4)]
 
 
-def story(groups):
-    rmse = {group["label"]: group["zone-plate"]["rmse"] for group in groups}
-    order = sorted(rmse, key=rmse.get)
-    return (f"from the smallest to the largest it is {', '.join(order)}. The lattice's error is all structure, seen at once; "
-            "that of random sets is spread over all frequencies.")
+def story(coarse, fine):
+    def order(groups):
+        return "; ".join(group["label"] for group in sorted(groups, key=lambda group: group["zone-plate"]["rmse"]))
+
+    return (f"From the smallest error to the largest it is {order(coarse)} up to the limit, and {order(fine)} beyond it. A small "
+            "error is not all there is to it: the lattice's is false rings, seen at once, and that of a random set is noise. Noise is "
+            "coarser where the rings' frequency is near the peak of the set's spectrum, which is the higher the more "
+            "regular the set is: CVT and opt-beta-local show it as a streaky band.")
