@@ -19,7 +19,8 @@ SETTINGS = ("--sync-seconds", "3600", "--picture-limit", "1000000", "--log-level
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="./dev reproduce", description="Regenerates the paper's torus results as one page.")
+    parser = argparse.ArgumentParser(prog="./dev reproduce", description="Regenerates the paper's torus results as "
+                                                                         "one page.")
     parser.add_argument("--program", required=True, help="the built wellspaced")
     parser.add_argument("--short", action="store_true", help="fewer and smaller sets, in less than a minute")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="folder for report.html")
@@ -38,7 +39,8 @@ def commit():
     """Of the sources around, if they are in a git checkout."""
     here = pathlib.Path(__file__).resolve().parent
     try:
-        said = subprocess.run(["git", "-C", here, "describe", "--always", "--dirty"], capture_output=True, text=True, check=True)
+        said = subprocess.run(["git", "-C", here, "describe", "--always", "--dirty"], capture_output=True, text=True,
+                              check=True)
         return said.stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
@@ -58,12 +60,15 @@ def filled_sections(context):
 
 def lead(short):
     text = report.paragraph(
-        f"{paper.AUTHORS}: \u201c{paper.TITLE}\u201d, {paper.JOURNAL}. Its results on the torus, made again with the service wellspaced through "
-        "its public HTTP API. Every number on this page was computed for it, but those in columns headed \u201cthe paper\u201d and in tables that say they "
-        f"compare with other programs. The paper's text could not be obtained by this project: what it says is known from its abstract and from this project's "
-        f"design note, and wherever it is not known this page says \u201c{paper.NOT_AVAILABLE}\u201d.", "lead")
+        f"{paper.AUTHORS}: \u201c{paper.TITLE}\u201d, {paper.JOURNAL}. Its results on the torus, made again with "
+        "the service wellspaced through its public HTTP API. Every number on this page was computed for it, but "
+        "those in columns headed \u201cthe paper\u201d and in tables that say they compare with other programs. "
+        "The paper's text could not be obtained by this project: what it says is known from its abstract and from "
+        "this project's design note, and wherever it is not known this page says "
+        f"\u201c{paper.NOT_AVAILABLE}\u201d.", "lead")
     if short:
-        text += report.paragraph("This is the short form: fewer and smaller point sets than the paper's, to show that everything works.", "lead")
+        text += report.paragraph("This is the short form: fewer and smaller point sets than the paper's, to show "
+                                 "that everything works.", "lead")
     return text
 
 
@@ -75,13 +80,17 @@ def write(options, started):
         version = client.operations()["version"]
         sections = filled_sections(Context(client, SHORT if options.short else FULL))
     total = time.perf_counter() - started
-    facts = [("command", "./dev reproduce" + (" --short" if options.short else "")), ("version of the service", version),
-             ("commit of the sources", commit()), ("CPU", f"{cpu_model()}, {os.cpu_count()} cores"), ("total", f"{total:.1f} s")]
+    facts = [("command", "./dev reproduce" + (" --short" if options.short else "")),
+             ("version of the service", version),
+             ("commit of the sources", commit()),
+             ("CPU", f"{cpu_model()}, {os.cpu_count()} cores"),
+             ("total", f"{total:.1f} s")]
     page = report.page(f"{paper.TITLE}: reproduced", lead(options.short), sections, facts)
     path = options.output / "report.html"
     path.write_text(page, encoding="utf-8")
     print(f"{total:7.1f} s  in all: {path} ({len(page.encode()) / 1e6:.1f} MB)", flush=True)
-    return check.faults(page, {entry.anchor: entry.has for entry in ENTRIES} | {"summary": ("table",), "reproduce": ("table",)})
+    wanted = {"summary": ("table",), "reproduce": ("table",)} | {entry.anchor: entry.has for entry in ENTRIES}
+    return check.faults(page, wanted)
 
 
 def stop(number, frame):

@@ -121,6 +121,7 @@ def side_by_side(charts, title):
     for chart in charts:
         parts.append(f'<g transform="translate({x} 0)"><title>{html.escape(chart.title)}</title>{chart.svg()}</g>')
         x += chart.width
-    svg = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+    svg = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} '
+           f'{height}" '
            f'font-family="{FONT}" font-size="12"><title>{html.escape(title)}</title>{"".join(parts)}</svg>')
     return Picture("svg", svg.encode())

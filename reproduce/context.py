@@ -92,3 +92,8 @@ def reached_text(group):
 def beta_upper(group):
     """Of all sets of a group; nothing if that could not be proven."""
     return group["certificate"]["beta_upper"]
+
+
+def proven(group, beta):
+    """Whether all sets of a group have at most this beta, by proof."""
+    return beta_upper(group) is not None and beta_upper(group) <= beta

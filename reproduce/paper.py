@@ -27,17 +27,22 @@ class Statement:
 WHITE_NOISE = Statement("\u201cuniform random points have no aspect ratio bound\u201d", ABSTRACT)
 MPS_BETA = Statement("\u201cMaximal Poisson-disk sampling provides \u03b2=1 and blue noise\u201d", ABSTRACT, (1.0,))
 IMPROVEMENT = Statement(
-    "\u201cimproving from 1.0 to around 0.8, about half-way to 0.58\u201d, said of beta_i", ABSTRACT, (1.0, 0.8, 0.58))
+    "\u201cimproving from 1.0 to around 0.8, about half-way to 0.58\u201d, said of beta_i", ABSTRACT,
+    (1.0, 0.8, 0.58))
 FLOOR = Statement("0.58, the theoretical bound given by a structured tiling", ABSTRACT, (0.58,))
+# What of that goes beside which row of Fig. 2.
+BY_TYPE = {"white noise": f"no bound [{ABSTRACT}]", "MPS": f"\u03b2 = 1 [{ABSTRACT}]",
+           "triangular lattice": f"0.58 [{ABSTRACT}]", "opt-beta-local": f"beta_i around 0.8 [{ABSTRACT}]"}
 OPEN_PROBLEM = Statement("constructing from scratch a set with a guarantee of beta < 1 is an open problem", ABSTRACT)
 
 OPT_BETA_I = Statement(
     "Opt-\u03b2\u2071: sweeps in scan-line order with immediate updates; for each point ten Nelder-Mead steps from "
-    "{x, x + r/10 e1, x + r/10 e2} on its own ratio; damping 0.6 to 0.8 for a target above 0.9; stops when the global "
-    "beta is below the target", "design note, section 3: \u201cfaithful\u201d to the paper")
+    "{x, x + r/10 e1, x + r/10 e2} on its own ratio; damping 0.6 to 0.8 for a target above 0.9; stops when the "
+    "global beta is below the target", "design note, section 3: \u201cfaithful\u201d to the paper")
 DISTMESH = Statement("DistMesh with Fscale 1.2 and deltat 0.2", "design note, section 3", (1.2, 0.2))
 
-ANGLES = Statement("angles in [asin(1/(2 beta)), 180 \u2212 2 asin(1/(2 beta))] degrees", "section 6.1, by the design note")
+ANGLES = Statement("angles in [asin(1/(2 beta)), 180 \u2212 2 asin(1/(2 beta))] degrees", "section 6.1, by the "
+                                                                                          "design note")
 EDGES = Statement("edges in [1, 2 beta] r_f", "section 6.1, by the design note")
 OBTUSE = Statement("no obtuse triangle when beta < 1/\u221a2", "section 6.1, by the design note")
 
@@ -50,7 +55,8 @@ TABLE_1 = Statement("Table 1: beta 0.988 at r = 0.0314 and 0.932 at r = 0.0157",
 SPHERE = Statement("sphere: 0.73 at 1000 points (CVT 0.81)", NOTE_P, (0.73, 0.81))
 
 # Not the paper's: this project's own trials.
-TRIAL_FIRST_SWEEP = Statement("beta 1.03 to 1.12 after the first sweep of 10,000 points", "design note, marked [M]", (1.03, 1.12))
+TRIAL_FIRST_SWEEP = Statement("beta 1.03 to 1.12 after the first sweep of 10,000 points",
+                              "design note, marked [M]", (1.03, 1.12))
 
 # Not the paper's: other authors' programs as measured for this project on this kind of machine, one thread, CPU
 # seconds, 10,000 points out of MPS (design note, section 7). Program, what it was asked for, seconds, beta reached.

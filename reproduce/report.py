@@ -13,7 +13,8 @@ STYLE = """
 body { margin: 0 auto; padding: 2rem 1.25rem 4rem; max-width: 1100px; background: #fff; color: #1c1e21;
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", sans-serif; }
 h1 { font-size: 1.8rem; line-height: 1.25; margin: 0 0 .4rem; }
-h2 { font-size: 1.35rem; line-height: 1.3; margin: 3.2rem 0 .8rem; padding-top: .9rem; border-top: 1px solid #d5d9de; }
+h2 { font-size: 1.35rem; line-height: 1.3; margin: 3.2rem 0 .8rem; padding-top: .9rem;
+  border-top: 1px solid #d5d9de; }
 h3 { font-size: 1.05rem; margin: 1.6rem 0 .4rem; }
 p, ul { max-width: 78ch; margin: .6rem 0; }
 .lead { color: #4a5058; }
@@ -58,7 +59,7 @@ SYMBOL = re.compile(r"\b(r|d|beta)_(f|c|hex|i|upper)(?![A-Za-z_])")
 
 
 def escape(text):
-    """As HTML, with the subscripts of r_f, r_c, d_hex, beta_i and beta_upper set as such; `code` between backticks."""
+    """As HTML, with the subscripts of r_f, r_c, d_hex, beta_i and beta_upper; `code` between backticks."""
     if isinstance(text, Html):
         return text
     parts = html.escape(str(text)).split("`")
@@ -180,16 +181,17 @@ class Section:
 
     def figure(self, picture, caption, alt):
         self.figures += 1
-        self.parts.append(Html(f"<figure>\n{drawing(picture, alt)}\n<figcaption>"
-                               f"{escape(f'Figure {self.number}.{self.figures}. {caption}')}</figcaption>\n</figure>\n"))
+        numbered = escape(f"Figure {self.number}.{self.figures}. {caption}")
+        self.parts.append(Html(f"<figure>\n{drawing(picture, alt)}\n<figcaption>{numbered}</figcaption>\n"
+                               "</figure>\n"))
 
     def finding(self, what, said, ours, verdict):
         self.findings.append(Finding(what, said, ours, verdict))
 
     def requests(self, *commands):
         shown = "\n\n".join(commands)
-        self.parts.append(Html(f"<details><summary>The requests, as curl</summary>\n<pre>{html.escape(shown)}</pre>"
-                               "</details>\n"))
+        self.parts.append(Html("<details><summary>The requests, as "
+                               f"curl</summary>\n<pre>{html.escape(shown)}</pre></details>\n"))
 
     def html(self):
         return (f'<section id="{self.anchor}">\n<h2>{self.number}. {escape(self.title)}</h2>\n'
@@ -204,7 +206,8 @@ def contents(sections):
 def summary(sections):
     rows = [(Html(f'<a href="#{s.anchor}">{s.number}</a>'), f.what, f.paper, f.ours, f.verdict)
             for s in sections for f in s.findings]
-    return table("What the paper says and what this service does. All of \u201cours\u201d was computed for this page.",
+    return table("What the paper says and what this service does. All of \u201cours\u201d was computed for this "
+                 "page.",
                  ["section", "what", "the paper", "ours", "verdict"], rows)
 
 

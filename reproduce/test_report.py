@@ -11,7 +11,8 @@ from reproduce.sections import ENTRIES
 
 
 def spacing_of(beta, angle_min, angle_max, edge_max, edge_min=1.0):
-    return {"beta": beta, "angle_min_deg": angle_min, "angle_max_deg": angle_max, "edge_min": edge_min, "edge_max": edge_max}
+    return {"beta": beta, "angle_min_deg": angle_min, "angle_max_deg": angle_max, "edge_min": edge_min,
+            "edge_max": edge_max}
 
 
 class Formulas(unittest.TestCase):
@@ -42,7 +43,8 @@ class Formulas(unittest.TestCase):
         fine = {"beta": 0.7, "angle_min": 46, "angle_max": 88, "edge_max": 1.39}
         self.assertTrue(all(formulas.bounds_hold(spacing_of(**fine)).values()))
         broken = {"smallest angle": {"angle_min": 45}, "largest angle": {"angle_max": 89},
-                  "longest edge": {"edge_max": 1.41}, "shortest edge": {"edge_min": 0.99}, "no obtuse triangle": {"angle_max": 91}}
+                  "longest edge": {"edge_max": 1.41}, "shortest edge": {"edge_min": 0.99},
+                  "no obtuse triangle": {"angle_max": 91}}
         for name, change in broken.items():
             self.assertFalse(formulas.bounds_hold(spacing_of(**(fine | change)))[name], name)
 
@@ -84,7 +86,8 @@ class Text(unittest.TestCase):
         self.assertEqual(report.escape(report.Html("<b>")), "<b>")
 
     def test_symbols_get_their_subscripts(self):
-        self.assertEqual(report.escape("r_f, d_hex and beta_i"), "r<sub>f</sub>, d<sub>hex</sub> and beta<sub>i</sub>")
+        self.assertEqual(report.escape("r_f, d_hex and beta_i"), "r<sub>f</sub>, d<sub>hex</sub> and "
+                                                                 "beta<sub>i</sub>")
         self.assertEqual(report.escape("r_f\u00b2"), "r<sub>f</sub>\u00b2")
         self.assertEqual(report.escape("beta_i_max and `r_f`"), "beta_i_max and <code>r_f</code>")
 
@@ -121,12 +124,11 @@ class Requests(unittest.TestCase):
         start = bodies.mps(100, seed=7)
         body = bodies.comparison([bodies.group("MPS", start, 3),
                                   bodies.group("CVT", bodies.optimized(start, "cvt", max_sweeps=5))], ["spacing"])
+        generate = {"generate": {"method": "poisson-disk", "count": 100, "seed": 7}}
         self.assertEqual(body, {
             "compare": [
-                {"label": "MPS", "points": {"generate": {"method": "poisson-disk", "count": 100, "seed": 7}}, "seeds": 3},
-                {"label": "CVT", "points": {"optimize": {
-                    "points": {"generate": {"method": "poisson-disk", "count": 100, "seed": 7}}, "method": "cvt",
-                    "max_sweeps": 5}}}],
+                {"label": "MPS", "points": generate, "seeds": 3},
+                {"label": "CVT", "points": {"optimize": {"points": generate, "method": "cvt", "max_sweeps": 5}}}],
             "measures": ["spacing"]})
 
     def test_what_the_service_would_refuse_is_refused_before(self):
@@ -173,7 +175,8 @@ class Refusals(unittest.TestCase):
         self.assertIsNone(server.address_in("starting\n{\"mess"))
 
     def test_settings_for_other_servers_are_left_out(self):
-        self.assertEqual(server.own_environment({"PATH": "/bin", "WELLSPACED_LISTEN": "0.0.0.0:80"}), {"PATH": "/bin"})
+        environment = {"PATH": "/bin", "WELLSPACED_LISTEN": "0.0.0.0:80"}
+        self.assertEqual(server.own_environment(environment), {"PATH": "/bin"})
 
     def test_a_server_that_does_not_start_is_reported_with_what_it_said(self):
         with self.assertRaises(server.ServerFailed) as raised:
@@ -189,7 +192,7 @@ class Page(unittest.TestCase):
             section = report.Section(entry.anchor, entry.title, number)
             section.text("what it is about")
             section.table("numbers", ["a"], [["1"]])
-            section.figure(Picture("svg", b"<svg viewBox='0 0 1 1'><path d='M0 0'/></svg>"), "a figure", "an alternative")
+            section.figure(Picture("svg", b"<svg viewBox='0 0 1 1'><path d='M0 0'/></svg>"), "a figure", "instead")
             section.finding("what", "the paper", "ours", report.holds(True))
             section.requests("curl")
             sections.append(section)
@@ -208,15 +211,16 @@ class Page(unittest.TestCase):
         self.assertNotIn("@import", page)
 
     def test_a_missing_section_is_a_fault(self):
-        self.assertIn("the section mesh is missing", check.faults(self.page().replace('id="mesh"', 'id="mess"'), self.wanted()))
+        page = self.page().replace('id="mesh"', 'id="mess"')
+        self.assertIn("the section mesh is missing", check.faults(page, self.wanted()))
 
     def test_a_section_without_its_figure_is_a_fault(self):
         self.assertEqual(check.faults('<section id="a"><table></table></section>', {"a": ("table", "figure")}),
                          ["the section a has no figure"])
 
     def test_what_is_fetched_from_elsewhere_is_a_fault(self):
-        for text in ('<img alt="x" src="http://example.org/x.png">', '<link href="style.css">', "<script></script>", "<p>",
-                     "<p></div>", '<p id="a"></p><p id="a"></p>', '<img src="data:x">'):
+        for text in ('<img alt="x" src="http://example.org/x.png">', '<link href="style.css">', "<script></script>",
+                     "<p>", "<p></div>", '<p id="a"></p><p id="a"></p>', '<img src="data:x">'):
             self.assertTrue(check.faults(text, {}), text)
 
 

@@ -16,17 +16,19 @@ def valence_shares(group):
 def fill(context, section):
     references, local, own = context.references, context.local_targets, context.own_targets
     groups = [*references.groups, *local.groups, *own.groups]
-    section.text(f"From {context.sizes.seeds} MPS sets of {context.sizes.mesh_points} points to targets from 0.95 to 0.70: how many "
-                 "points have that many Delaunay neighbors, and how far apart they are. Six neighbors and rho = 1 would be the "
-                 "triangular lattice. \u201cReached\u201d counts sets that came to their target by proof; a set that did not is the best "
-                 f"that opt-beta-local found in {context.sizes.local_sweeps} sweeps.")
+    section.text(f"From {context.sizes.seeds} MPS sets of {context.sizes.mesh_points} points to targets from 0.95 "
+                 "to 0.70: how many points have that many Delaunay neighbors, and how far apart they are. Six "
+                 "neighbors and rho = 1 would be the triangular lattice. \u201cReached\u201d counts sets that came "
+                 "to their target by proof; a set that did not is the best that opt-beta-local found in "
+                 f"{context.sizes.local_sweeps} sweeps.")
     section.figure(charts(references.groups, local.groups, own.groups),
-                   "Left: share of points with six neighbors. Right: rho, with the least that any point set of that beta can have, "
-                   "1 / (\u221a3 beta). Dots without a line are single methods.", "Shares of valence six and rho against beta")
+                   "Left: share of points with six neighbors. Right: rho, with the least that any point set of "
+                   "that beta can have, 1 / (\u221a3 beta). Dots without a line are single methods.",
+                   "Shares of valence six and rho against beta")
     section.table(f"Shares of all points of {context.sizes.seeds} sets; beta: mean (smallest to largest).", COLUMNS,
                   [row(group) for group in groups] + [known()])
-    section.text(f"The paper's curves: {paper.NOT_AVAILABLE}. The last row is what the design note states of MPS in general, "
-                 "without a mark of its source.")
+    section.text(f"The paper's curves: {paper.NOT_AVAILABLE}. The last row is what the design note states of MPS "
+                 "in general, without a mark of its source.")
     mps = references.groups[0]
     section.text("Where it differs: " + why(mps, local.groups, own.groups), "differs")
     findings(section, mps)
@@ -36,8 +38,9 @@ def fill(context, section):
 def row(group):
     shares = valence_shares(group)
     other = sum(share for valence, share in shares.items() if valence not in VALENCES)
-    return [group["label"], reached_text(group), span(values(group, "beta")), *(percent(shares.get(v, 0)) for v in VALENCES),
-            percent(other), number(group["spacing"]["rho"]), number(group["spacing"]["beta_i_mean"])]
+    return [group["label"], reached_text(group), span(values(group, "beta")),
+            *(percent(shares.get(v, 0)) for v in VALENCES), percent(other),
+            number(group["spacing"]["rho"]), number(group["spacing"]["beta_i_mean"])]
 
 
 def known():
@@ -70,11 +73,12 @@ def charts(references, local, own):
 
 def why(mps, local, own):
     both = [(a, b) for a, b in zip(local, own) if reached(a)[0] == reached(a)[1]]
-    texts = [f"{percent(valence_shares(a).get(6, 0), 0)} against {percent(valence_shares(b).get(6, 0), 0)} at target "
-             f"{a['label'][-4:]}" for a, b in both]
-    return (f"the shares of MPS are within {largest_difference(mps):.1f} percentage points of what is stated. At the same target opt-beta-local leaves "
-            f"other numbers of six-neighbored points than opt-beta ({'; '.join(texts) or 'no target was reached by all sets'}): it "
-            "moves all points, opt-beta only those near a violation, and opt-beta-local also ends further below its target.")
+    texts = [f"{percent(valence_shares(a).get(6, 0), 0)} against {percent(valence_shares(b).get(6, 0), 0)} at "
+             f"target {a['label'][-4:]}" for a, b in both]
+    return (f"the shares of MPS are within {largest_difference(mps):.1f} percentage points of what is stated. At "
+            "the same target opt-beta-local leaves other numbers of six-neighbored points than opt-beta "
+            f"({'; '.join(texts) or 'no target was reached by all sets'}): it moves all points, opt-beta only "
+            "those near a violation, and opt-beta-local also ends further below its target.")
 
 
 def findings(section, mps):
@@ -83,10 +87,12 @@ def findings(section, mps):
     shares = valence_shares(mps)
     section.finding("density of MPS", paper.MPS_DENSITY, f"N r_f\u00b2 = {number(density, 4)} A",
                     difference(density, paper.MPS_DENSITY.values[0]))
-    section.finding("rho of MPS", paper.MPS_RHO, number(spacing["rho"]), difference(spacing["rho"], paper.MPS_RHO.values[0]))
+    section.finding("rho of MPS", paper.MPS_RHO, number(spacing["rho"]),
+                    difference(spacing["rho"], paper.MPS_RHO.values[0]))
     section.finding("mean beta_i of MPS", paper.MPS_BETA_I, number(spacing["beta_i_mean"]),
                     difference(spacing["beta_i_mean"], paper.MPS_BETA_I.values[0]))
-    section.finding("valences of MPS", paper.MPS_VALENCE, " / ".join(f"{100 * shares.get(v, 0):.1f}" for v in VALENCES) + " %",
+    section.finding("valences of MPS", paper.MPS_VALENCE,
+                    " / ".join(f"{100 * shares.get(v, 0):.1f}" for v in VALENCES) + " %",
                     f"within {largest_difference(mps):.1f} percentage points")
 
 

@@ -63,8 +63,8 @@ def compete(context, entrant, start):
     needed = formulas.first_sweep_at(result["history"], TARGET)
     if needed is None:
         return timed(context, entrant.label, entrant.body(start, max_sweeps=most),
-                     f"did not get there in {result['sweeps']} sweeps"
-                     f"{', after which it came to rest' if result['sweeps'] < most else ''}")
+                     f"did not get there in {result['sweeps']} "
+                     f"sweeps{', after which it came to rest' if result['sweeps'] < most else ''}")
     return timed(context, entrant.label, entrant.body(start, max_sweeps=needed),
                  f"has no target; asked for just the {needed} sweeps that it takes")
 
@@ -81,20 +81,23 @@ def fill(context, section):
                               "its targets are radii: rho as opt-beta's here, coverage 0.85 rho"))
     alone = formulas.median_and_range(generate)[0]
     runs.sort(key=lambda run: (run.result["beta"] > TARGET, formulas.median_and_range(run.seconds)[0]))
-    section.text(f"{sizes.race_points} points from the same MPS set to global beta {TARGET}. Seconds are those of {sizes.race_repeats} "
-                 "synchronous requests as seen by the client, from sending to the last byte of the points as JSON: sampling, optimizing, "
-                 "measuring and proving, and writing. Sampling is also given alone, and what remains without it.")
+    section.text(f"{sizes.race_points} points from the same MPS set to global beta {TARGET}. Seconds are those of "
+                 f"{sizes.race_repeats} synchronous requests as seen by the client, from sending to the last byte "
+                 "of the points as JSON: sampling, optimizing, measuring and proving, and writing. Sampling is "
+                 "also given alone, and what remains without it.")
     section.table("Median seconds (smallest to largest), fastest first; those that missed the target last.",
                   ["method", "#seconds", "#without sampling", "#sweeps", "#beta", "#beta_upper", "reached", "remark"],
-                  [["MPS input alone", seconds_text(generate), number(None), number(None), number(None), number(None), "", ""],
+                  [["MPS input alone", seconds_text(generate), *[number(None)] * 4, "", ""],
                    *(row(run, alone) for run in runs)])
     section.text(f"The paper's seconds: {paper.NOT_AVAILABLE}; they would be of another machine.")
-    section.table("For comparison, not the paper's: other programs as measured for this project (design note, section 7): one thread, CPU "
-                  "seconds, 10,000 points from MPS, sampling not included.", ["program", "asked for", "#seconds", "#beta"],
+    section.table("For comparison, not the paper's: other programs as measured for this project (design note, "
+                  "section 7): one thread, CPU seconds, 10,000 points from MPS, sampling not included.",
+                  ["program", "asked for", "#seconds", "#beta"],
                   [[program, asked, f"{seconds:g}", number(beta)] for program, asked, seconds, beta in paper.PEERS])
-    section.text("Where it differs: methods without a target get the sweeps they need, known from a run before, so nothing is spent "
-                 "on finding out whether they are there; this favors them. A sweep of opt-beta or push-pull visits only points near "
-                 "a violation. The smallest seconds are mostly sampling, proving and writing.", "differs")
+    section.text("Where it differs: methods without a target get the sweeps they need, known from a run before, so "
+                 "nothing is spent on finding out whether they are there; this favors them. A sweep of opt-beta or "
+                 "push-pull visits only points near a violation. The smallest seconds are mostly sampling, proving "
+                 "and writing.", "differs")
     findings(section, runs)
     section.requests(bodies.curl("/v1/generate", start["generate"]),
                      *(bodies.curl("/v1/optimize", run.body) for run in runs))
@@ -114,11 +117,13 @@ def there(run):
 def row(run, alone):
     ok = '<span class="holds">yes</span>' if there(run) else '<span class="fails">no</span>'
     return [run.label, seconds_text(run.seconds), number(max(0, formulas.median_and_range(run.seconds)[0] - alone)),
-            str(run.result["sweeps"]), number(run.result["beta"], 4), number(run.result["beta_upper"], 4), Html(ok), run.note]
+            str(run.result["sweeps"]), number(run.result["beta"], 4), number(run.result["beta_upper"], 4), Html(ok),
+            run.note]
 
 
 def findings(section, runs):
     missed = [f"{run.label} ({number(run.result['beta'])})" for run in runs if not there(run)]
-    text = "; ".join(f"{run.label} {number(formulas.median_and_range(run.seconds)[0])} s" for run in runs if there(run))
+    text = "; ".join(f"{run.label} {number(formulas.median_and_range(run.seconds)[0])} s"
+                     for run in runs if there(run))
     section.finding(f"time to beta {TARGET}", paper.NOT_AVAILABLE,
                     text + (f"; not there: {', '.join(missed)}" if missed else ""), "no comparison")

@@ -31,21 +31,24 @@ def fill(context, section):
                     for frequency in (COARSE, FINE))
     plate = coarse.groups[0]["zone-plate"]
     side = context.sizes.plate_side
-    section.text(f"{side} x {side} = {side**2} samples of {plate['function']}, shown as {plate['columns']} x {plate['rows']} "
-                 f"pixels through a Gaussian of sigma = {plate['sigma']} mean sample spacings. At the end of the lower edge the rings have "
-                 f"{COARSE:g} cycles a sample spacing (k = {plate['k']:g}), which is the limit of a square lattice, or {FINE:g} "
-                 f"(k = {fine.groups[0]['zone-plate']['k']:g}), beyond it. rmse is the root mean square difference of the pixels (values from 0 to 1) from the function "
-                 "filtered exactly: aliasing and noise together.")
+    section.text(f"{side} x {side} = {side**2} samples of {plate['function']}, shown as {plate['columns']} x "
+                 f"{plate['rows']} pixels through a Gaussian of sigma = {plate['sigma']} mean sample spacings. At "
+                 f"the end of the lower edge the rings have {COARSE:g} cycles a sample spacing (k = "
+                 f"{plate['k']:g}), which is the limit of a square lattice, or {FINE:g} (k = "
+                 f"{fine.groups[0]['zone-plate']['k']:g}), beyond it. rmse is the root mean square difference of "
+                 "the pixels (values from 0 to 1) from the function filtered exactly: aliasing and noise together.")
     section.figure(coarse.picture("zone-plate", frequency=COARSE, size_px=side),
                    f"Rings up to the limit, {COARSE:g} cycles a sample spacing at the end of the lower edge.",
                    "Zone plates of six point sets, up to the limit of a square lattice")
-    section.figure(fine.picture("zone-plate", frequency=FINE, size_px=side), f"The same with {FINE:g}. Beyond the limit a lattice shows rings that are "
-                   "not there; random sets turn what they can't represent into noise.",
+    section.figure(fine.picture("zone-plate", frequency=FINE, size_px=side),
+                   f"The same with {FINE:g}. Beyond the limit a lattice shows rings that are not there; random sets "
+                   "turn what they can't represent into noise.",
                    "Zone plates of six point sets, beyond the limit of a square lattice")
-    section.table("Error of the zone plate.", ["points", "#beta", "#sweeps", f"#rmse, {COARSE:g} cycles",
-                                               f"#rmse, {FINE:g} cycles"],
+    section.table("Error of the zone plate.",
+                  ["points", "#beta", "#sweeps", f"#rmse, {COARSE:g} cycles", f"#rmse, {FINE:g} cycles"],
                   [row(*pair, optimized) for pair in zip(coarse.groups, fine.groups)])
-    section.text(f"The paper's function, filter and errors: {paper.NOT_AVAILABLE}; the number of samples is its own.")
+    section.text(f"The paper's function, filter and errors: {paper.NOT_AVAILABLE}; that it has 350 x 350 samples is "
+                 "known to this project from its task.")
     section.text("Where it differs: function and filter are this service's, so pictures compare in kind only. "
                  + story(coarse.groups, fine.groups), "differs")
     section.requests(*(job.curl() for job in optimized.values()),
@@ -62,7 +65,8 @@ def story(coarse, fine):
     def order(groups):
         return "; ".join(group["label"] for group in sorted(groups, key=lambda group: group["zone-plate"]["rmse"]))
 
-    return (f"From the smallest error to the largest it is {order(coarse)} up to the limit, and {order(fine)} beyond it. A small "
-            "error is not all there is to it: the lattice's is false rings, seen at once, and that of a random set is noise. Noise is "
-            "coarser where the rings' frequency is near the peak of the set's spectrum, which is the higher the more "
-            "regular the set is: CVT and opt-beta-local show it as a streaky band.")
+    return (f"From the smallest error to the largest it is {order(coarse)} up to the limit, and {order(fine)} "
+            "beyond it. A small error is not all there is to it: the lattice's is false rings, seen at once, and "
+            "that of a random set is noise. Noise is coarser where the rings' frequency is near the peak of the "
+            "set's spectrum, which is the higher the more regular the set is: CVT and opt-beta-local show it as a "
+            "streaky band.")
