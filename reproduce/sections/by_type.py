@@ -38,9 +38,10 @@ def fill(context, section):
     by_label = {group["label"]: group for group in job.groups}
     section.text("Ten types of point set on the torus: three that nobody optimized, the paper's input (MPS), the "
                  "three lattices, and what three optimizers make of the MPS sets: CVT (100 sweeps of Lloyd's), "
-                 f"opt-beta-local (the paper's Opt-\u03b2\u2071, asked for beta {LOCAL_TARGET:.2f}) and opt-beta (this "
-                 f"project's own, asked for {OWN_TARGET:.2f}). beta is the global ratio r_c / r_f; beta_i is the local "
-                 "one of a point, its farthest place over its nearest neighbor, and at most beta.")
+                 f"opt-beta-local (the paper's Opt-\u03b2\u2071, asked for beta {LOCAL_TARGET:.2f}) and "
+                 f"opt-beta (this project's own, asked for {OWN_TARGET:.2f}). beta is the global ratio r_c / r_f; "
+                 "beta_i is the local one, a point's farthest place in its cell over the distance of its nearest "
+                 "neighbor, and at most beta.")
     section.table("beta by type of point set: mean over the sets (smallest to largest); beta_upper is proven for "
                   "all sets of the row.", COLUMNS, [row(group) for group in job.groups])
     section.text(f"The plot's numbers: {paper.NOT_AVAILABLE}; the last column holds what the abstract says.")

@@ -3,6 +3,7 @@
 from reproduce import bodies, paper
 from reproduce.report import number
 
+PANEL_PX = 350
 COARSE, FINE = 0.5, 1.0  # cycles a mean sample spacing at the end of the lower edge
 
 
@@ -37,10 +38,10 @@ def fill(context, section):
                  f"{plate['k']:g}), which is the limit of a square lattice, or {FINE:g} (k = "
                  f"{fine.groups[0]['zone-plate']['k']:g}), beyond it. rmse is the root mean square difference of "
                  "the pixels (values from 0 to 1) from the function filtered exactly: aliasing and noise together.")
-    section.figure(coarse.picture("zone-plate", frequency=COARSE, size_px=side),
+    section.figure(coarse.picture("zone-plate", frequency=COARSE, size_px=PANEL_PX),
                    f"Rings up to the limit, {COARSE:g} cycles a sample spacing at the end of the lower edge.",
                    "Zone plates of six point sets, up to the limit of a square lattice")
-    section.figure(fine.picture("zone-plate", frequency=FINE, size_px=side),
+    section.figure(fine.picture("zone-plate", frequency=FINE, size_px=PANEL_PX),
                    f"The same with {FINE:g}. Beyond the limit a lattice shows rings that are not there; random sets "
                    "turn what they can't represent into noise.",
                    "Zone plates of six point sets, beyond the limit of a square lattice")
