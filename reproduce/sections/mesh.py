@@ -77,9 +77,9 @@ def why(mps, local, own):
              f"target {a['label'][-4:]}" for a, b in both]
     return (f"the shares of MPS are within {largest_difference(mps):.1f} percentage points of what is stated. At "
             "the same target opt-beta-local leaves other numbers of six-neighbored points than opt-beta "
-            f"({'; '.join(texts) or 'no target was reached by all sets'}): it moves all points in every "
-            "sweep, as far as that serves each, opt-beta only those near a violation and no farther than its radii ask; "
-            "and opt-beta-local ends further below its target.")
+            f"({'; '.join(texts) or 'no target was reached by all sets'}): it moves all points in "
+            "every sweep, as far as that serves each, opt-beta only those near a violation and no farther than its "
+            "radii ask; and opt-beta-local ends further below its target.")
 
 
 def findings(section, mps):

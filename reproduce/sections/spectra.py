@@ -61,6 +61,6 @@ def why(local, own):
     pairs = [(a, next(b for b in own.groups if b["label"][-4:] == a["label"][-4:])) for a in local.groups]
     less = [b["label"][-4:] for a, b in pairs if b["spectrum"]["oscillations"] < a["spectrum"]["oscillations"]]
     return (f"at the same target opt-beta's spectra oscillate less than opt-beta-local's at {len(less)} of "
-            f"{len(pairs)} targets{' (' + ', '.join(less) + ')' if less else ''}: points move no farther than "
-            "its radii ask, and what is left alone stays random. opt-beta-local goes past its target, so at the same target its sets are also further "
-            "along.")
+            f"{len(pairs)} targets{' (' + ', '.join(less) + ')' if less else ''}: points move no farther than its "
+            "radii ask, and what is left alone stays random. opt-beta-local goes past its target, so at the same "
+            "target its sets are also further along.")
