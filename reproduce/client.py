@@ -41,6 +41,11 @@ class Picture:
     kind: str  # svg or png
     data: bytes
 
+    @property
+    def bytes_in_page(self):
+        """A PNG is written there in base 64."""
+        return len(self.data) if self.kind == "svg" else len(self.data) * 4 // 3
+
 
 @dataclass
 class Job:
@@ -58,15 +63,16 @@ class Job:
         return self.result["compare"]
 
     def picture(self, name, **parameters):
-        """As SVG, or as PNG where that would be too large for a page."""
-        kind = "svg"
-        data = self._fetch(bodies.picture_query(name, kind, parameters))
-        if len(data) > LARGEST_SVG_BYTES:
-            kind = "png"
-            parameters = {**parameters, "scale": PNG_SCALE}
-            data = self._fetch(bodies.picture_query(name, kind, parameters))
-        self.pictures.append((name, kind, bodies.picture_query(name, kind, parameters)))
-        return Picture(kind, data)
+        """As SVG, or as PNG where that would be large for a page and PNG is smaller there."""
+        query = bodies.picture_query(name, "svg", parameters)
+        picture = Picture("svg", self._fetch(query))
+        if len(picture.data) > LARGEST_SVG_BYTES:
+            png_query = bodies.picture_query(name, "png", {**parameters, "scale": PNG_SCALE})
+            png = Picture("png", self._fetch(png_query))
+            if png.bytes_in_page < picture.bytes_in_page:
+                query, picture = png_query, png
+        self.pictures.append((name, picture.kind, query))
+        return picture
 
     def curl(self):
         """The commands that do the same by hand."""

@@ -6,7 +6,7 @@ import shlex
 import unittest
 
 from reproduce import bodies, chart, check, formulas, paper, report, server
-from reproduce.client import Client, Picture, Problem, problem_document
+from reproduce.client import Client, Job, Picture, Problem, problem_document
 from reproduce.sections import ENTRIES
 
 
@@ -183,6 +183,27 @@ class Refusals(unittest.TestCase):
             with server.running("/bin/false"):
                 self.fail("it can't serve")
         self.assertIn("/bin/false", str(raised.exception))
+
+
+class Pictures(unittest.TestCase):
+    def job(self, svg_bytes, png_bytes):
+        class Fake:
+            def get(self, path):
+                return b"x" * (svg_bytes if "format=svg" in path else png_bytes)
+
+        return Job(Fake(), "id", "analyze", {}, {})
+
+    def test_a_small_picture_is_svg(self):
+        self.assertEqual(self.job(1000, 10).picture("voronoi").kind, "svg")
+
+    def test_a_large_one_is_png_if_that_is_smaller_in_the_page(self):
+        self.assertEqual(self.job(2_000_000, 1_000_000).picture("voronoi").kind, "png")
+        self.assertEqual(self.job(2_000_000, 1_600_000).picture("voronoi").kind, "svg")
+
+    def test_the_commands_name_the_picture_that_was_taken(self):
+        job = self.job(2_000_000, 1_000_000)
+        job.picture("voronoi", size_px=240)
+        self.assertIn("format=png&picture=voronoi&picture.size_px=240&picture.scale=2' -o voronoi.png", job.curl())
 
 
 class Page(unittest.TestCase):
