@@ -1,0 +1,68 @@
+"""Figs. 6 and 11: how beta falls by sweep."""
+
+from reproduce import bodies, formulas, paper
+from reproduce.report import number
+
+SWEEPS = (0, 1, 2, 5, 10, 20, 50, 100)
+
+
+def method_groups(start):
+    methods = [("opt-beta-local to 0.80", "opt-beta-local", {"beta": 0.80}),
+               ("cvt, Lloyd", "cvt", {"variant": "lloyd", "max_sweeps": 100}),
+               ("cvt, accelerated", "cvt", {"variant": "accelerated", "max_sweeps": 100}),
+               ("distmesh", "distmesh", {"max_sweeps": 100}),
+               ("far-point", "far-point", {"max_sweeps": 100}),
+               ("push-pull", "push-pull", {}),
+               ("opt-beta to 0.75", "opt-beta", {"beta": 0.75})]
+    return [bodies.group(label, bodies.optimized(start, method, **parameters))
+            for label, method, parameters in methods]
+
+
+def setting_groups(start):
+    settings = [(f"to {beta:.2f}", {"beta": beta}) for beta in (0.95, 0.90, 0.85, 0.80)]
+    settings += [(f"to 0.95, damping {damping:g}", {"beta": 0.95, "damping": damping}) for damping in (0.6, 1)]
+    settings += [(f"to 0.80, damping {damping:g}", {"beta": 0.80, "damping": damping}) for damping in (0.6,)]
+    return [bodies.group(f"opt-beta-local {label}", bodies.optimized(start, "opt-beta-local", **parameters))
+            for label, parameters in settings]
+
+
+def fill(context, section):
+    start = bodies.mps(context.sizes.sweep_points)
+    methods = context.compare(method_groups(start), ["spacing"])
+    settings = context.compare(setting_groups(start), ["spacing"])
+    section.text(f"One MPS set of {context.sizes.sweep_points} points, and what each method makes of it sweep by "
+                 "sweep. In the paper's terms a sweep is one visit to every point; a sweep of opt-beta and of "
+                 "push-pull visits only points near a violation, so theirs cost a fraction of the others'.")
+    section.figure(methods.picture("convergence", last_sweep=SWEEPS[-1], size_px=290),
+                   "beta, coverage radius and conflict radius after each sweep.",
+                   "beta, r_c and r_f by sweep, by method")
+    section.table("beta after that many sweeps, by the last one recorded; a dash where it was over before.",
+                  ["method", *(f"#{sweep}" for sweep in SWEEPS), "#last sweep", "#beta of the result"],
+                  [row(group) for group in methods.groups])
+    section.text(f"The paper's curves: {paper.NOT_AVAILABLE}.")
+    section.heading("opt-beta-local by target and damping")
+    section.figure(settings.picture("convergence", last_sweep=40, size_px=290),
+                   "opt-beta-local with several targets and dampings. Without one given, damping is 0.7 for "
+                   "targets above 0.9 and 1 below; with the same damping all go the same way, and stop earlier or "
+                   "later.", "beta, r_c and r_f by sweep of opt-beta-local, by target and damping")
+    section.table("The same as numbers.",
+                  ["settings", *(f"#{sweep}" for sweep in SWEEPS), "#last sweep", "#beta of the result"],
+                  [row(group) for group in settings.groups])
+    section.text("Where it differs: " + why(methods.groups[0]), "differs")
+    section.requests(methods.curl(), settings.curl())
+
+
+def row(group):
+    run = group["optimized"][0]
+    return [group["label"], *(number(formulas.beta_after(run["history"], sweep)) for sweep in SWEEPS),
+            str(run["sweeps"]), number(run["beta"])]
+
+
+def why(local):
+    history = local["optimized"][0]["history"]
+    before, first = history[0][1], history[1][1]
+    return (f"the first sweep of opt-beta-local takes the global beta from {number(before)} to "
+            f"{number(first)}{': it rises' if first > before else ''}, though every single move lowers the mover's "
+            "own beta_i: a point moves for itself, and its neighbors' distances are not looked at. Damping lessens "
+            f"it. This project's trials saw the same: {paper.TRIAL_FIRST_SWEEP}. Whether the paper's curves show "
+            f"it is {paper.NOT_AVAILABLE}.")
