@@ -64,7 +64,7 @@ def lead(short):
         "the service wellspaced through its public HTTP API. Every number on this page was computed for it, but "
         "those in columns headed \u201cthe paper\u201d and in tables that say they compare with other programs. "
         "The paper's text could not be obtained by this project: what it says is known from its abstract and from "
-        "this project's design note, and wherever it is not known this page says "
+        "this project's notes, which quote it, and wherever it is not known this page says "
         f"\u201c{paper.NOT_AVAILABLE}\u201d.", "lead")
     if short:
         text += report.paragraph("This is the short form: fewer and smaller point sets than the paper's, to show "

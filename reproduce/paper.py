@@ -1,5 +1,5 @@
 """What the paper says, each with where this project has it from. Its full text could not be obtained: known are its
-abstract, and what the design note algorithms.md quotes of it. Nothing else may stand here as the paper's."""
+abstract, and what notes made for this project quote of it. Nothing else may stand here as the paper's."""
 
 from dataclasses import dataclass
 
@@ -8,8 +8,8 @@ AUTHORS = "Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp, Wei"
 JOURNAL = "Computer-Aided Design, 2014"
 
 ABSTRACT = "abstract"
-NOTE_P = "design note, marked [P]"  # what the paper says, according to the note
-NOTE = "design note, unmarked"      # in the note without a mark of its source
+NOTE_P = "project notes, quoting the paper"
+NOTE = "project notes"  # without a mark of their source
 NOT_AVAILABLE_SHORT = "not available to us"
 NOT_AVAILABLE = "not available to us (plot only / text not obtained)"
 
@@ -38,13 +38,12 @@ OPEN_PROBLEM = Statement("constructing from scratch a set with a guarantee of be
 OPT_BETA_I = Statement(
     "Opt-\u03b2\u2071: sweeps in scan-line order with immediate updates; for each point ten Nelder-Mead steps from "
     "{x, x + r/10 e1, x + r/10 e2} on its own ratio; damping 0.6 to 0.8 for a target above 0.9; stops when the "
-    "global beta is below the target", "design note, section 3: \u201cfaithful\u201d to the paper")
-DISTMESH = Statement("DistMesh with Fscale 1.2 and deltat 0.2", "design note, section 3", (1.2, 0.2))
+    "global beta is below the target", "project notes, of the paper's method")
+DISTMESH = Statement("DistMesh with Fscale 1.2 and deltat 0.2", "project notes", (1.2, 0.2))
 
-ANGLES = Statement("angles in [asin(1/(2 beta)), 180 \u2212 2 asin(1/(2 beta))] degrees", "section 6.1, by the "
-                                                                                          "design note")
-EDGES = Statement("edges in [1, 2 beta] r_f", "section 6.1, by the design note")
-OBTUSE = Statement("no obtuse triangle when beta < 1/\u221a2", "section 6.1, by the design note")
+ANGLES = Statement("angles in [asin(1/(2 beta)), 180 \u2212 2 asin(1/(2 beta))] degrees", "section 6.1, by the project notes")
+EDGES = Statement("edges in [1, 2 beta] r_f", "section 6.1, by the project notes")
+OBTUSE = Statement("no obtuse triangle when beta < 1/\u221a2", "section 6.1, by the project notes")
 
 MPS_DENSITY = Statement("N r\u00b2 = 0.6966 A", NOTE, (0.6966,))
 MPS_RHO = Statement("rho = 0.777", NOTE, (0.777,))
@@ -56,10 +55,10 @@ SPHERE = Statement("sphere: 0.73 at 1000 points (CVT 0.81)", NOTE_P, (0.73, 0.81
 
 # Not the paper's: this project's own trials.
 TRIAL_FIRST_SWEEP = Statement("beta 1.03 to 1.12 after the first sweep of 10,000 points",
-                              "design note, marked [M]", (1.03, 1.12))
+                              "project notes, own trials", (1.03, 1.12))
 
 # Not the paper's: other authors' programs as measured for this project on this kind of machine, one thread, CPU
-# seconds, 10,000 points out of MPS (design note, section 7). Program, what it was asked for, seconds, beta reached.
+# seconds, 10,000 points out of MPS (project notes). Program, what it was asked for, seconds, beta reached.
 PEERS = (
     ("push-pull, its authors' program", "beta 0.878", 0.033, 0.878),
     ("push-pull, its authors' program", "beta 0.788", 0.149, 0.788),

@@ -270,7 +270,7 @@ class Paper(unittest.TestCase):
         self.assertTrue(statements)
         for statement in statements:
             self.assertIn(f"[{statement.source}]", str(statement))
-            self.assertTrue("abstract" in statement.source or "design note" in statement.source)
+            self.assertTrue("abstract" in statement.source or "project notes" in statement.source)
 
 
 if __name__ == "__main__":

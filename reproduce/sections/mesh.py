@@ -27,8 +27,8 @@ def fill(context, section):
                    "Shares of valence six and rho against beta")
     section.table(f"Shares of all points of {context.sizes.seeds} sets; beta: mean (smallest to largest).", COLUMNS,
                   [row(group) for group in groups] + [known()])
-    section.text(f"The paper's curves: {paper.NOT_AVAILABLE}. The last row is what the design note states of MPS "
-                 "in general, without a mark of its source.")
+    section.text(f"The paper's curves: {paper.NOT_AVAILABLE}. The last row is what the project notes state of MPS "
+                 "in general.")
     mps = references.groups[0]
     section.text("Where it differs: " + why(mps, local.groups, own.groups), "differs")
     findings(section, mps)

@@ -90,8 +90,8 @@ def fill(context, section):
                   [["MPS input alone", seconds_text(generate), *[number(None)] * 4, "", ""],
                    *(row(run, alone) for run in runs)])
     section.text(f"The paper's seconds: {paper.NOT_AVAILABLE}; they would be of another machine.")
-    section.table("For comparison, not the paper's: other programs as measured for this project (design note, "
-                  "section 7): one thread, CPU seconds, 10,000 points from MPS, sampling not included.",
+    section.table("For comparison, not the paper's: other programs as measured for this project: "
+                  "one thread, CPU seconds, 10,000 points from MPS, sampling not included.",
                   ["program", "asked for", "#seconds", "#beta"],
                   [[program, asked, f"{seconds:g}", number(beta)] for program, asked, seconds, beta in paper.PEERS])
     section.text("Where it differs: methods without a target get the sweeps they need, known from a run before, so "

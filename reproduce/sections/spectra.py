@@ -33,7 +33,7 @@ def fill(context, section):
     section.table(f"What the spectra say, K = {seeds}.", COLUMNS, [row(group) for group in groups])
     section.text(f"The paper's spectra: {paper.NOT_AVAILABLE}.")
     section.table("For comparison, not the paper's: other programs' sets of 10,000 points, measured for this "
-                  "project (design note, section 7).", ["point set", "#effective Nyquist", "#oscillations"],
+                  "project.", ["point set", "#effective Nyquist", "#oscillations"],
                   [[name, number(nyquist), number(omega, 2)] for name, nyquist, omega in paper.PEER_SPECTRA])
     section.text("Where it differs: " + why(local, own), "differs")
     section.requests(*([local.curl()] if local else []), own.curl(), references.curl())

@@ -48,8 +48,8 @@ def fill(context, section):
     section.table("Error of the zone plate.",
                   ["points", "#beta", "#sweeps", f"#rmse, {COARSE:g} cycles", f"#rmse, {FINE:g} cycles"],
                   [row(*pair, optimized) for pair in zip(coarse.groups, fine.groups)])
-    section.text(f"The paper's function, filter and errors: {paper.NOT_AVAILABLE}; that it has 350 x 350 samples is "
-                 "known to this project from its task.")
+    section.text(f"The paper's function, filter and errors: {paper.NOT_AVAILABLE}; that it has about 350 x 350 samples "
+                 "is what this project's notes say.")
     section.text("Where it differs: function and filter are this service's, so pictures compare in kind only. "
                  + story(coarse.groups, fine.groups), "differs")
     section.requests(*(job.curl() for job in optimized.values()),
