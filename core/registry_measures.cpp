@@ -1,5 +1,6 @@
 #include "core/registry_measures.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 
@@ -84,6 +85,18 @@ DifferentialOptions differential_options(const Arguments& arguments) {
   options.sigma = argument(arguments, "sigma").value_or(options.sigma);
   options.pixels = static_cast<int>(argument(arguments, "pixels").value_or(options.pixels));
   return options;
+}
+
+Cost zone_plate_cost(double n, double aspect, const ZonePlateOptions& options) {
+  const double columns = options.columns ? *options.columns : 0;
+  const double pixels = std::max(n, columns * columns * aspect), samples = 28 * options.sigma * options.sigma;
+  return {5e-7 * n + pixels * (6e-7 + 3e-8 * std::min(samples, n)), 60 * n + 40 * pixels};
+}
+
+Cost differential_cost(double n, const DifferentialOptions& options) {
+  const double pairs = 4.7 * options.reach * options.reach * n,
+               pixels = 16.0 * options.pixels * options.pixels;
+  return {1e-7 * pairs + 3e-8 * pixels, 60 * n + 16 * pixels};
 }
 
 }  // namespace wellspaced

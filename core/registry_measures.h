@@ -16,8 +16,12 @@ PairCorrelationOptions pair_correlation_options(const Arguments& arguments);
 
 std::vector<Parameter> zone_plate_parameters();
 ZonePlateOptions zone_plate_options(const Arguments& arguments);
+/// Of one set of n points on a domain of that aspect ratio, about.
+Cost zone_plate_cost(double n, double aspect, const ZonePlateOptions& options);
 
 std::vector<Parameter> differential_parameters();
 DifferentialOptions differential_options(const Arguments& arguments);
+/// Of one set of n points that are not clustered, about.
+Cost differential_cost(double n, const DifferentialOptions& options);
 
 }  // namespace wellspaced

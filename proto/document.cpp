@@ -37,7 +37,7 @@ json value_from_text(const std::string& name, const std::string& text) {
 }
 
 /// domain.width=2 stands for {"domain": {"width": 2}}.
-json object_from_query(const std::vector<std::pair<std::string, std::string>>& query) {
+json object_from_query(const Query& query) {
   json root = json::object();
   for (const auto& [key, value] : query) {
     const auto dot = key.find('.');
@@ -55,8 +55,8 @@ json object_from_query(const std::vector<std::pair<std::string, std::string>>& q
 
 /// {"measures": ["a"], "a": {"x": 1}} becomes {"measures": [{"measure": "a", "x": 1}]}.
 void move_measure_parameters(json& root) {
-  if (!root.contains("measures")) return;
-  for (json& wanted : root["measures"]) {
+  json none = json::array();
+  for (json& wanted : root.contains("measures") ? root["measures"] : none) {
     const std::string name = wanted.get<std::string>();
     const auto given = root.find(name);
     if (find_measure(name) == nullptr || given == root.end() || !given->is_object()) continue;
@@ -65,6 +65,17 @@ void move_measure_parameters(json& root) {
     wanted = std::move(call);
     root.erase(given);
   }
+  for (const Measure& measure : measures())
+    if (root.contains(measure.name))
+      throw Error(
+          ErrorCode::invalid_parameters,
+          "these are parameters of a measure that is not asked for; add " + measure.name + " to measures",
+          pointer_token(measure.name));
+}
+
+/// "picture.color" is /picture/color, as in a JSON body.
+std::string pointer_of(const std::string& key) {
+  return key == "picture" ? "/picture" : "/picture" + pointer_token(key.substr(sizeof "picture." - 1));
 }
 
 /// The points of a body that is not JSON. Errors point to where the points would be in a JSON body.
@@ -87,6 +98,33 @@ JsonDocument read_json_body(const RawRequest& raw, std::size_t rows) {
 }
 
 }  // namespace
+
+bool is_picture_parameter(std::string_view name) { return name == "picture" || name.starts_with("picture."); }
+
+json picture_of_query(const Query& query) {
+  json picture;
+  for (const auto& [key, text] : query) {
+    if (!is_picture_parameter(key)) continue;
+    const std::string name = key == "picture" ? "name" : key.substr(sizeof "picture." - 1);
+    if (picture.contains(name))
+      throw Error(ErrorCode::invalid_parameters, "given twice; give it once", pointer_of(key));
+    if (text.empty())
+      throw Error(ErrorCode::invalid_parameters, "it is empty; give a value or leave it out",
+                  pointer_of(key));
+    const json value = json::parse(text, nullptr, false);
+    picture[name] = value.is_number() && name != "name" ? value : json(text);
+  }
+  // A name alone is the short form, and errors then point to it.
+  return picture.is_object() && picture.size() == 1 && picture.contains("name") ? picture["name"] : picture;
+}
+
+RawRequest raw_request(std::string_view operation, std::string_view content_type, std::string_view body,
+                       const Query& query) {
+  RawRequest raw{operation, content_type, body, {}, picture_of_query(query)};
+  for (const auto& parameter : query)
+    if (!is_picture_parameter(parameter.first)) raw.query.push_back(parameter);
+  return raw;
+}
 
 std::uint64_t point_limit(std::string_view operation, const Limits& limits) {
   if (operation == "optimize") return limits.optimize_points;

@@ -12,14 +12,26 @@
 
 namespace wellspaced {
 
+/// Decoded names and values, in their order.
+using Query = std::vector<std::pair<std::string, std::string>>;
+
 /// A request as it comes: body, its media type, and the decoded query.
 struct RawRequest {
   std::string_view operation;     ///< "generate", "optimize", "analyze"
   std::string_view content_type;  ///< media type, parameters allowed: "application/json; charset=utf-8"
   std::string_view body;
-  std::vector<std::pair<std::string, std::string>>
-      query;  ///< without format and picture, which only concern the answer
+  Query query;                       ///< without format, and without what it says of a picture
+  nlohmann::json picture = nullptr;  ///< what the query says of it, as picture_of_query gives it
 };
+
+/// Tells apart what the query says of the work and of a picture. Errors: those of picture_of_query.
+RawRequest raw_request(std::string_view operation, std::string_view content_type, std::string_view body,
+                       const Query& query);
+
+/// picture=voronoi and picture.color=valence of a query, as in a JSON body; null if there is none of them.
+/// Errors: invalid_parameters for one that is given twice.
+nlohmann::json picture_of_query(const Query& query);
+bool is_picture_parameter(std::string_view name);
 
 /// A request after its bytes are understood, as one JSON object: parameters of a query are where a JSON body
 /// would have them ("domain.width" is width in domain, "spectrum.range" the range of the measure spectrum).

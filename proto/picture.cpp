@@ -38,48 +38,89 @@ Method with_scale(const Picture& picture) {
   return method;
 }
 
-/// What a picture is made of: the largest set, all sets together, and the most elongated domain.
-struct Subject {
-  double n = 0, total = 0, aspect = 1;
-
+/// What a picture is made of, group by group.
+class Subject {
+ public:
+  void begin_group() { groups_.push_back({0, 0, 1}); }
   void add(double points, const Domain& domain) {
     const Vec3 sides = domain.box().size;
-    n = std::max(n, points);
-    total += points;
-    aspect = std::max({aspect, sides.x / sides.y, sides.y / sides.x});
+    PictureSize& group = groups_.back();
+    group.n = std::max(group.n, points);
+    group.sets += 1;
+    group.aspect = std::max({group.aspect, sides.x / sides.y, sides.y / sides.x});
   }
+
+  double largest() const {
+    double n = 0;
+    for (const PictureSize& group : groups_) n = std::max(n, group.n);
+    return n;
+  }
+  double total() const {
+    double sum = 0;
+    for (const PictureSize& group : groups_) sum += group.n * group.sets;
+    return sum;
+  }
+  Cost cost(const PictureCall& call) const {
+    Cost sum;
+    for (const PictureSize& group : groups_) {
+      const Cost one = call.picture->cost(group, call.arguments);
+      sum = {sum.seconds + one.seconds, std::max(sum.bytes, one.bytes)};
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<PictureSize> groups_;
 };
 
-[[noreturn]] void refuse_size(const std::string& what, double limit, const std::string& way_out,
-                              const std::string& where) {
-  throw Error(
-      ErrorCode::too_large,
-      "this picture of about " + what + " is above the limit of " + number_text(limit) + "; " + way_out,
-      where);
+/// The first parameter of which a smaller value makes the picture affordable, or the picture itself.
+std::string culprit(const Subject& subject, const PictureCall& call, const Limits& limits) {
+  for (const Parameter& p : call.picture->parameters) {
+    if (argument(call.arguments, p.name).value_or(0) == 0) continue;
+    PictureCall smaller = call;
+    smaller.arguments.erase(p.name);
+    const Cost cost = subject.cost(smaller);
+    if (cost.seconds <= limits.picture_seconds && cost.bytes <= static_cast<double>(limits.memory_bytes))
+      return "/picture/" + p.name;
+  }
+  return "/picture";
+}
+
+void require_points(double points, double limit, const std::string& way_out) {
+  if (points <= limit) return;
+  throw Error(ErrorCode::too_large,
+              "this picture of about " + number_text(std::round(points)) + " points is above the limit of " +
+                  number_text(limit) + "; " + way_out,
+              "/picture");
 }
 
 void require_size(const Subject& subject, const PictureCall& call, const Limits& limits) {
   const auto drawn = static_cast<double>(limits.picture_points);
-  if (call.picture->draws_each_point && subject.n > drawn)
-    refuse_size(number_text(std::round(subject.n)) + " points", drawn,
-                "ask for the points and draw a part of them", "/picture");
-  if (subject.total > without_points_factor * drawn)
-    refuse_size(number_text(std::round(subject.total)) + " points", without_points_factor * drawn,
-                "ask for fewer points or sets", "/picture");
-  if (call.picture->bytes == nullptr) return;
-  const double mebibytes = std::ceil(call.picture->bytes(subject.n, subject.aspect, call.arguments) / 0x1p20),
-               limit = std::floor(static_cast<double>(limits.memory_bytes) / 0x1p20);
-  if (mebibytes > limit)
-    refuse_size(number_text(std::min(mebibytes, 1e15)) + " MiB", limit,
-                "ask for a smaller range, or fewer points", "/picture/range");
+  if (call.picture->draws_each_point)
+    require_points(subject.largest(), drawn, "ask for the points and draw a part of them");
+  require_points(subject.total(), without_points_factor * drawn, "ask for fewer points or sets");
+  const Cost cost = subject.cost(call);
+  const auto memory = static_cast<double>(limits.memory_bytes);
+  if (cost.seconds <= limits.picture_seconds && cost.bytes <= memory) return;
+  const bool slow = cost.seconds > limits.picture_seconds;
+  const auto text = [](double x) {
+    return x > 1e6 ? std::string("more than a million") : number_text(std::ceil(x));
+  };
+  throw Error(ErrorCode::too_large,
+              "to draw this picture may take about " +
+                  (slow ? text(cost.seconds) + " s" : text(cost.bytes / 0x1p20) + " MiB") +
+                  ", and the limit here is " +
+                  (slow ? number_text(limits.picture_seconds) + " s" : text(memory / 0x1p20) + " MiB") +
+                  "; ask for less of it, or of fewer points or sets",
+              culprit(subject, call, limits));
 }
 
 void require_history(bool there, const Picture& picture) {
   if (!picture.needs_history || there) return;
   throw Error(ErrorCode::invalid_parameters,
               picture.name +
-                  " shows how an optimizer got on; ask for it with optimize, or analyze points that are "
-                  "{\"optimize\": {...}}",
+                  " shows how an optimizer got on; ask for it with optimize, of a kept job by GET "
+                  "/v1/jobs/ID/result?picture=convergence, or analyze points that are {\"optimize\": {...}}",
               "/picture");
 }
 
@@ -127,31 +168,22 @@ PictureCall read_picture(const json& value, const std::string& where) {
                 where);
   const json asked = value.is_string() ? json{{"name", value}} : value;
   Fields fields(asked, where);
-  const std::string name = fields.text("name").value_or(pictures().front().name);
-  call.picture = &find_row(pictures(), name, value.is_string() ? where : where + "/name");
+  fields.require("name", "a picture, one of: " + names_of(pictures()));
+  call.picture = &find_row(pictures(), *fields.text("name"), value.is_string() ? where : where + "/name");
   call.arguments = read_arguments(with_scale(*call.picture), fields);
   call.scale = argument(call.arguments, "scale").value_or(1);
   call.arguments.erase("scale");
   return call;
 }
 
-bool is_picture_parameter(std::string_view name) { return name == "picture" || name.starts_with("picture."); }
-
-json picture_of_query(const std::vector<std::pair<std::string, std::string>>& query) {
-  json picture;
-  for (const auto& [key, text] : query) {
-    if (!is_picture_parameter(key)) continue;
-    const std::string name = key == "picture" ? "name" : key.substr(sizeof "picture." - 1);
-    if (picture.contains(name))
-      throw Error(ErrorCode::invalid_parameters, "given twice; give it once", pointer_token(key));
-    if (text.empty())
-      throw Error(ErrorCode::invalid_parameters, "it is empty; give a value or leave it out",
-                  pointer_token(key));
-    const json value = json::parse(text, nullptr, false);
-    picture[name] = value.is_number() && name != "name" ? value : json(text);
-  }
-  // A name alone is the short form, and errors then point to it.
-  return picture.is_object() && picture.size() == 1 && picture.contains("name") ? picture["name"] : picture;
+json merged_picture(const json& own, const json& query) {
+  if (query.is_null()) return own;
+  if (query.is_string() || query.contains("name")) return query;
+  json merged = own.is_object()
+                    ? own
+                    : json{{"name", own.is_string() && own != "" ? own : json(pictures().front().name)}};
+  merged.update(query);
+  return merged;
 }
 
 void require_drawable(const Request& request, const PictureCall& call, const Limits& limits) {
@@ -160,6 +192,7 @@ void require_drawable(const Request& request, const PictureCall& call, const Lim
     for (const SourceGroup& group : analyze->groups) {
       require_history(is_optimized(group.sets.front()), *call.picture);
       require_torus(domain_of(group.sets.front()), *call.picture);
+      subject.begin_group();
       for (const PointSource& set : group.sets) subject.add(expected_points(set), domain_of(set));
     }
   } else {
@@ -168,6 +201,7 @@ void require_drawable(const Request& request, const PictureCall& call, const Lim
     const Domain& domain = optimize != nullptr ? domain_of(optimize->points)
                                                : *std::get<GenerateRequest>(request.operation).domain;
     require_torus(domain, *call.picture);
+    subject.begin_group();
     subject.add(expected_points(request), domain);
   }
   require_size(subject, call, limits);
@@ -179,6 +213,7 @@ Drawing draw_result(const Result& result, const PictureCall& call, const Limits&
   Subject subject;
   for (const ResultGroup& group : result.groups) {
     groups.push_back({group.label, group.sets, history_of(result, groups.size()), group.sizing.sizing.get()});
+    subject.begin_group();
     for (const PointSet& set : group.sets) subject.add(static_cast<double>(set.size()), *set.domain);
     require_history(!groups.back().history.empty(), *call.picture);
     require_torus(*group.sets.front().domain, *call.picture);

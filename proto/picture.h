@@ -25,14 +25,10 @@ struct PictureCall {
 /// Null and "" stand for the first of all pictures. Errors: invalid_parameters with the field's pointer.
 PictureCall read_picture(const nlohmann::json& value, const std::string& where);
 
-/// picture=voronoi and picture.color=valence of a query, as in a JSON body; null if there is none of them.
-/// Errors: invalid_parameters for one that is given twice.
-nlohmann::json picture_of_query(const std::vector<std::pair<std::string, std::string>>& query);
-/// Whether a parameter of a query is one of those.
-bool is_picture_parameter(std::string_view name);
-
+/// The picture of a request or result with what a query says of it: another picture, or only some parameters.
+nlohmann::json merged_picture(const nlohmann::json& own, const nlohmann::json& query);
 /// Before the work. Errors at /picture: invalid_parameters if what is asked for won't have what the picture
-/// shows; too_large for more points than the limits, or at /picture/range for more memory.
+/// shows; too_large for more points, time or memory than the limits, at the parameter that is to blame.
 void require_drawable(const Request& request, const PictureCall& call, const Limits& limits);
 
 /// Draws a result. Errors: those of require_drawable and of the picture.

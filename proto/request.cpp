@@ -92,9 +92,11 @@ std::vector<SourceGroup> compared_groups(const json& value, SourceReader& reader
     Fields fields(value[g], "/compare/" + std::to_string(g));
     for (const char* name : group_fields) fields.find(name);
     const std::string label = fields.text("label").value_or("");
-    constexpr std::size_t longest_label = 60;
-    if (label.size() > longest_label)
-      throw Error(ErrorCode::invalid_parameters, "a label has at most 60 bytes", fields.pointer_to("label"));
+    constexpr std::ptrdiff_t longest_label = 60;
+    const auto begins_character = [](unsigned char c) { return (c & 0xc0) != 0x80; };
+    if (std::count_if(label.begin(), label.end(), begins_character) > longest_label)
+      throw Error(ErrorCode::invalid_parameters, "a label has at most 60 characters",
+                  fields.pointer_to("label"));
     fields.refuse_unknown();
     groups.push_back(reader.group(fields));
     groups.back().label = label;
@@ -165,10 +167,9 @@ Request read_request(const RawRequest& raw, const Limits& limits, const JobPoint
   SourceReader reader(document, point_limit(raw.operation, limits), job_points);
   Fields fields(document.root, "");
   Request request;
-  if (const json* picture = fields.find("picture")) {
-    read_picture(*picture, "/picture");
-    request.picture = *picture;
-  }
+  const json* picture = fields.find("picture");
+  request.picture = merged_picture(picture != nullptr ? *picture : json(), raw.picture);
+  read_picture(request.picture, "/picture");
   if (raw.operation == "generate") {
     request.operation = reader.generate(fields);
   } else if (raw.operation == "optimize") {

@@ -58,8 +58,8 @@ struct Encoded {
   std::string file_name;
 };
 
-/// Writes a result. `picture`, as read_picture takes it, wins over the request's own unless it is null; only
-/// for svg and png.
+/// Writes a result. `picture` is what a query says of it, see merged_picture: another picture than the
+/// request's or some parameters of it; only for svg and png.
 ///
 /// Guarantees: the same result and format give the same bytes.
 /// Errors: those of read_picture and draw_result.

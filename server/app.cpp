@@ -134,6 +134,7 @@ class App::Impl {
     lock.unlock();
     log_info("draining", {{"seconds", config_.drain_seconds}});
     std::this_thread::sleep_for(std::chrono::duration<double>(config_.drain_seconds));
+    context_.pictures.cancel();
     guard_.stop();
   }
 

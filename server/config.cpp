@@ -66,6 +66,8 @@ void add_settings(CLI::App& app, Config& c) {
   setting(app, "--analyze-limit", c.limits.analyze_points, "most points that analyze takes")
       ->check(at_least_one);
   setting(app, "--picture-limit", c.limits.picture_points, "most points in a picture")->check(at_least_one);
+  setting(app, "--picture-seconds", c.limits.picture_seconds, "longest estimated time to draw a picture")
+      ->check(CLI::Validator(CLI::Range(0.0, 1e9)) & not_nan);
   setting(app, "--sync-seconds", c.limits.sync_seconds,
           "longest estimated work without Prefer: respond-async")
       ->check(CLI::Validator(CLI::Range(0.0, 1e9)) & not_nan);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/control.h"
 #include "server/config.h"
 #include "server/jobs/job_store.h"
 #include "server/jobs/worker_pool.h"
@@ -16,6 +17,8 @@ struct Context {
   JobStore& store;
   Metrics& metrics;
   WorkerPool* pool = nullptr;              ///< set before the first request
+  Control pictures{};                      ///< that are being drawn: over when the server stops
+  std::atomic<unsigned> drawing = 0;       ///< how many are being drawn
   std::atomic<bool> draining = false;      ///< no new work is taken
   std::atomic<std::uint64_t> changes = 0;  ///< grows whenever some job's state or events may have changed
 };

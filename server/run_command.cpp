@@ -78,19 +78,17 @@ bool write_file(const std::string& path, const std::string& bytes) {
 std::string encoded_result(const Invocation& i, Format format, const std::string& body) {
   auto query = read_query(i);
   if (!i.picture.empty()) query.emplace_back("picture", i.picture);
-  const nlohmann::json picture = picture_of_query(query);
-  std::erase_if(query, [](const auto& parameter) { return is_picture_parameter(parameter.first); });
   const std::string content_type = content_type_of(i);
   const JobPoints no_jobs = [](const std::string&) -> PointSet {
     throw Error(ErrorCode::no_such_job,
                 "wellspaced run knows no jobs; save the job's points and give them as npy or csv");
   };
-  const Request request = read_request({i.operation, content_type, body, query}, i.config.limits, no_jobs);
+  const Request request =
+      read_request(raw_request(i.operation, content_type, body, query), i.config.limits, no_jobs);
   Control control(i.config.threads);
   if (is_picture(format))
-    require_drawable(request, read_picture(picture.is_null() ? request.picture : picture, "/picture"),
-                     i.config.limits);
-  return encode_result(execute(request, control), format, picture, i.config.limits, control).bytes;
+    require_drawable(request, read_picture(request.picture, "/picture"), i.config.limits);
+  return encode_result(execute(request, control), format, {}, i.config.limits, control).bytes;
 }
 
 }  // namespace

@@ -27,7 +27,13 @@ std::string fixed_text(double value, int decimals) {
 
 /// What a legend writes, row by row.
 struct LegendRows {
-  std::vector<std::pair<Vec2, const Series*>> places;  ///< from the legend's corner
+  struct Entry {
+    Vec2 place;  ///< from the legend's corner
+    std::string label;
+    Rgb color;
+    double dash_px;
+  };
+  std::vector<Entry> entries;
   double height_px = 0;
 };
 
@@ -37,15 +43,16 @@ LegendRows legend_rows(const std::vector<Series>& series, double width_px) {
   double x = 0, y = 0;
   for (const Series& s : series) {
     if (s.label.empty()) continue;
-    const double width = swatch_px + 6 + font.width_px(s.label, tick_size_px) + 18;
+    const std::string label = fitted(font, s.label, tick_size_px, width_px - swatch_px - 6);
+    const double width = swatch_px + 6 + font.width_px(label, tick_size_px) + 18;
     if (x > 0 && x + width > width_px) {
       x = 0;
       y += legend_row_px;
     }
-    rows.places.push_back({{x, y}, &s});
+    rows.entries.push_back({{x, y}, label, s.color, s.dash_px});
     x += width;
   }
-  rows.height_px = rows.places.empty() ? 0 : y + legend_row_px;
+  rows.height_px = rows.entries.empty() ? 0 : y + legend_row_px;
   return rows;
 }
 
@@ -105,7 +112,7 @@ class Painter {
     std::vector<Vec2> points;
     const auto flush = [&] {
       if (points.size() > 1) canvas_.polyline(points, {std::nullopt, Pen{s.color, 1.6, s.dash_px}});
-      if (s.marks)
+      if (s.marks || points.size() == 1)  // which has no line to be seen by
         for (const Vec2 p : points) canvas_.circle(p, 2.2, {s.color, std::nullopt});
       points.clear();
     };
@@ -150,10 +157,10 @@ class Painter {
 };
 
 void paint_legend(const LegendRows& rows, Vec2 at, Canvas& canvas) {
-  for (const auto& [place, series] : rows.places) {
-    const Vec2 from = at + place + Vec2{0, 9};
-    canvas.line(from, from + Vec2{swatch_px, 0}, {series->color, 2.4, series->dash_px});
-    canvas.text(from + Vec2{swatch_px + 6, 4}, series->label, {tick_size_px, ink, Align::start, false, true});
+  for (const LegendRows::Entry& entry : rows.entries) {
+    const Vec2 from = at + entry.place + Vec2{0, 9};
+    canvas.line(from, from + Vec2{swatch_px, 0}, {entry.color, 2.4, entry.dash_px});
+    canvas.text(from + Vec2{swatch_px + 6, 4}, entry.label, {tick_size_px, ink, Align::start, false, true});
   }
 }
 

@@ -18,4 +18,9 @@ Rgb color_of_class(std::size_t k) {
   return classes[k % classes.size()];
 }
 
+double dash_px_of_class(std::size_t k) {
+  constexpr std::array<double, 3> dashes = {0, 7, 2.2};
+  return dashes[k / 7 % dashes.size()];
+}
+
 }  // namespace wellspaced

@@ -31,6 +31,9 @@ Rgb color_at(ColorMap map, double t);
 /// Source: Okabe and Ito, "Color Universal Design", 2008 (without yellow, which doesn't show on white).
 Rgb color_of_class(std::size_t k);
 
+/// Dashes that tell those of the same color apart; they repeat after 21 classes.
+double dash_px_of_class(std::size_t k);
+
 inline constexpr Rgb ink{34, 34, 34}, faint_ink{110, 110, 110}, grid_ink{222, 222, 222}, paper{255, 255, 255};
 
 }  // namespace wellspaced

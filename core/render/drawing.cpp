@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/render/font.h"
+
 namespace wellspaced {
 namespace {
 
@@ -68,8 +70,10 @@ Drawing with_caption(Drawing drawing, const std::string& caption) {
                     drawing.height_px + line_px,
                     drawing.title.empty() ? caption : caption + ": " + drawing.title,
                     {}};
-  captioned.draw = [drawing = std::move(drawing), caption](Canvas& canvas) {
-    canvas.text({drawing.width_px / 2, 15}, caption, {15, ink, Align::middle, false, true});
+  constexpr double size_px = 15;
+  const std::string shown = fitted(Font(), caption, size_px, drawing.width_px);
+  captioned.draw = [drawing = std::move(drawing), shown](Canvas& canvas) {
+    canvas.text({drawing.width_px / 2, 15}, shown, {size_px, ink, Align::middle, false, true});
     draw_at(drawing, {0, line_px}, canvas);
   };
   return captioned;

@@ -29,7 +29,7 @@ Drawing grid_of(std::vector<Drawing> panels, std::size_t columns, double gap_px)
 /// Drawings below each other, from the left.
 Drawing stack_of(std::vector<Drawing> parts, double gap_px);
 
-/// With a line of text above it, which may be empty: then there is none.
+/// With a line of text above it, as much of it as fits; it may be empty: then there is none.
 Drawing with_caption(Drawing drawing, const std::string& caption);
 
 /// With a margin on each side.

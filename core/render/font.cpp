@@ -131,4 +131,14 @@ void Font::outline(std::string_view text, double size_px, Vec2 at, bool upward, 
   }
 }
 
+std::string fitted(const Font& font, std::string_view text, double size_px, double width_px) {
+  if (font.width_px(text, size_px) <= width_px) return std::string(text);
+  const auto with_dots = [&] { return std::string(text) + "…"; };
+  while (!text.empty() && font.width_px(with_dots(), size_px) > width_px) {
+    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.remove_suffix(1);
+    text.remove_suffix(1);
+  }
+  return with_dots();
+}
+
 }  // namespace wellspaced

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/render/canvas.h"
@@ -38,6 +39,9 @@ class Font {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The text, or as much of its beginning as fits with "…".
+std::string fitted(const Font& font, std::string_view text, double size_px, double width_px);
 
 /// The size of a run's letters.
 inline double run_size_px(const TextRun& run, double size_px) {

@@ -53,11 +53,8 @@ Measure differential_measure() {
   row.run = run;
   row.schema = schema;
   row.cost = [](const MeasureSize& size, const Arguments& arguments) {
-    const DifferentialOptions options = differential_options(arguments);
-    const double pairs = 4.7 * options.reach * options.reach * size.n,
-                 pixels = 16.0 * options.pixels * options.pixels;
-    return Cost{size.sets * (1e-7 * pairs + 1e-8 * pixels),
-                60 * size.n + 8 * pixels + 8.0 * size.sets * pixels / 16};
+    const Cost one = differential_cost(size.n, differential_options(arguments));
+    return Cost{size.sets * one.seconds, (1 + size.sets / 16) * one.bytes};
   };
   row.needs_torus = true;
   return row;

@@ -1,7 +1,5 @@
 #include "core/analyze/zone_plate.h"
 
-#include <algorithm>
-
 #include "core/registry_measures.h"
 #include "proto/measures/number_fields.h"
 #include "proto/measures/rows.h"
@@ -66,10 +64,8 @@ Measure zone_plate_measure() {
   row.run = run;
   row.schema = schema;
   row.cost = [](const MeasureSize& size, const Arguments& arguments) {
-    const ZonePlateOptions options = zone_plate_options(arguments);
-    const double across = options.columns ? *options.columns : 0, side = 1 + 2 * options.sigma;
-    const double pixels = std::max(size.n, across * across * size.aspect);
-    return Cost{size.sets * (5e-7 * size.n + 6e-7 * pixels * side * side), 60 * size.n + 16 * pixels};
+    const Cost one = zone_plate_cost(size.n, size.aspect, zone_plate_options(arguments));
+    return Cost{size.sets * one.seconds, one.bytes};
   };
   row.needs_torus = true;
   return row;

@@ -1,8 +1,10 @@
 #include "server/handlers/answer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <ctime>
 #include <string_view>
 
@@ -62,6 +64,38 @@ void read_preferences(std::string_view text, Preference& preference) {
   }
 }
 
+/// A place among the few threads that may draw at a time, so that the others answer whatever else is asked.
+class DrawingPlace {
+ public:
+  explicit DrawingPlace(Context& context) : drawing_(context.drawing) {
+    const unsigned most = std::max(1u, context.config.http.threads / 2);
+    if (++drawing_ <= most) return;
+    --drawing_;
+    throw Error(ErrorCode::overloaded,
+                "the server is drawing as many pictures as it may at a time; ask again in a moment");
+  }
+  ~DrawingPlace() { --drawing_; }
+  DrawingPlace(const DrawingPlace&) = delete;
+  DrawingPlace& operator=(const DrawingPlace&) = delete;
+
+ private:
+  std::atomic<unsigned>& drawing_;
+};
+
+Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
+  const Limits& limits = context.config.limits;
+  Control control(context.config.threads, &context.pictures);
+  std::optional<DrawingPlace> place;
+  if (is_picture(wanted.format)) {
+    place.emplace(context);
+    // Estimates hold for ordinary point sets.
+    const std::chrono::duration<double> most(2 * std::min(limits.picture_seconds, 1e6));
+    control.set_deadline(Control::Clock::now() + std::chrono::duration_cast<Control::Clock::duration>(most),
+                         "to draw this picture takes too long; ask for another, or for one of fewer points");
+  }
+  return encode_result(result, wanted.format, wanted.picture, limits, control);
+}
+
 }  // namespace
 
 std::string query_value(const http::Request& request, const std::string& name) {
@@ -79,7 +113,6 @@ std::string query_value(const http::Request& request, const std::string& name) {
 Wanted read_wanted(const http::Request& request, const std::string& operation) {
   Wanted wanted;
   wanted.picture = picture_of_query(request.query);
-  read_picture(wanted.picture, "/picture");
   wanted.format = negotiate(query_value(request, "format"), request.header("Accept"), formats_of(operation));
   return wanted;
 }
@@ -123,9 +156,7 @@ http::Response result_response(Context& context, const Job& job, const Wanted& w
   if (job.status == JobStatus::dismissed)
     throw Error(ErrorCode::cancelled,
                 "the job was cancelled before it had a result; submit the request again");
-  const Result result = load_result(context.store.result(job.id));
-  const Control control(context.config.threads);
-  Encoded encoded = encode_result(result, wanted.format, wanted.picture, context.config.limits, control);
+  Encoded encoded = encode(context, load_result(context.store.result(job.id)), wanted);
   http::Response response;
   response.body = std::move(encoded.bytes);
   response.set("Content-Type", encoded.media_type)

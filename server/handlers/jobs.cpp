@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "proto/document.h"
 #include "proto/fields.h"
 #include "proto/result.h"
 #include "server/handlers/answer.h"
@@ -184,6 +185,10 @@ http::Response get_result(Context& context, const http::Request& request) {
     throw Error(ErrorCode::result_not_ready, "the job is " + std::string(to_string(job.status)) +
                                                  "; ask again later, or wait with GET /v1/jobs/" + job.id +
                                                  " and Prefer: wait=20");
+  for (const auto& [name, value] : request.query)
+    if (name != "format" && !is_picture_parameter(name))
+      throw Error(ErrorCode::invalid_parameters,
+                  "unknown parameter; known here are: format, picture, picture.NAME", pointer_token(name));
   const Wanted wanted = read_wanted(request, job.operation);
   http::Response response = result_response(context, job, wanted, request.id);
   if (response.status != 200) return response;

@@ -13,13 +13,12 @@ namespace wellspaced {
 namespace {
 
 using nlohmann::json;
-using Query = std::vector<std::pair<std::string, std::string>>;
 
-/// The parameters of a point-set body; what concerns the answer is not part of the job.
+/// All but the format, which only concerns the answer.
 Query request_query(const http::Request& request) {
   Query query;
   for (const auto& parameter : request.query)
-    if (parameter.first != "format" && !is_picture_parameter(parameter.first)) query.push_back(parameter);
+    if (parameter.first != "format") query.push_back(parameter);
   return query;
 }
 
@@ -88,17 +87,17 @@ http::Response post_operation(Context& context, const std::string& operation,
     Wanted wanted = read_wanted(http_request, operation);
     const Preference preference = read_preference(http_request);
     const Query query = request_query(http_request);
-    const RawRequest raw{operation, http_request.header("Content-Type"), http_request.body, query};
+    const RawRequest raw =
+        raw_request(operation, http_request.header("Content-Type"), http_request.body, query);
     std::string needs;
     const JobPoints job_points = [&](const std::string& id) {
       needs = id;
       return points_of_jobs(context)(id);
     };
     const Request request = read_request(raw, context.config.limits, job_points);
+    wanted.picture = nullptr;  // the request holds it
     if (is_picture(wanted.format))
-      require_drawable(request,
-                       read_picture(wanted.picture.is_null() ? request.picture : wanted.picture, "/picture"),
-                       context.config.limits);
+      require_drawable(request, read_picture(request.picture, "/picture"), context.config.limits);
     if (!preference.respond_async) require_sync(request, context.config.limits);
 
     const bool attached = !preference.respond_async;
@@ -119,7 +118,8 @@ http::Response post_operation(Context& context, const std::string& operation,
 
 std::string run_job(Context& context, const Claim& claim, Control& control) {
   const Query query = json::parse(claim.spec.query).get<Query>();
-  const RawRequest raw{claim.spec.operation, claim.spec.content_type, claim.spec.request, query};
+  const RawRequest raw =
+      raw_request(claim.spec.operation, claim.spec.content_type, claim.spec.request, query);
   const Result result = execute(read_request(raw, context.config.limits, points_of_jobs(context)), control);
   context.metrics.count_points(result.operation == "analyze" ? 0 : result.points().size());
   return store_result(result);

@@ -214,6 +214,28 @@ TEST(Font, MeasuresText) {
               font.width_px("a", 10) + font.width_px("b", 10 * run_scale), 1e-9);
 }
 
+TEST(Fitted, CutsAtCharacters) {
+  const Font font;
+  EXPECT_EQ(fitted(font, "abc", 10, 100), "abc");
+  const std::string cut = fitted(font, "αβγδεζηθ", 10, 30);
+  EXPECT_LE(font.width_px(cut, 10), 30);
+  EXPECT_EQ(cut, std::string("αβγδεζηθ").substr(0, cut.size() - 3) + "…");
+  EXPECT_EQ(cut.size() % 2, 1u);  // whole letters of two bytes, and the dots of three
+  EXPECT_EQ(fitted(font, "abc", 10, 0), "…");
+}
+
+TEST(Chart, MarksPointsThatStandAlone) {
+  Chart chart;
+  chart.series = {{"", {0.1, 0.2, 0.3}, {std::nan(""), 0.5, std::nan("")}}};
+  EXPECT_EQ(testing::occurrences(to_svg(draw(chart)), "<circle"), 1u);
+}
+
+TEST(ClassesOfCurves, CanBeToldApart) {
+  for (std::size_t a = 0; a < 21; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_FALSE(color_of_class(a) == color_of_class(b) && dash_px_of_class(a) == dash_px_of_class(b));
+}
+
 TEST(RoundTicks, AreRoundAndWithinTheRange) {
   const auto texts = [](double low, double high, int count) {
     std::string all;

@@ -104,6 +104,10 @@ TEST(ReadRequest, RefusesSetsThatCannotBeAveraged) {
 
 TEST(ReadRequest, RefusesComparisonsThatAreNone) {
   const std::string one = R"({"points":{"generate":{"count":10}}})";
+  std::string umlauts;
+  for (int k = 0; k < 60; ++k) umlauts += "ü";
+  EXPECT_NO_THROW(
+      read("analyze", R"({"compare":[{"points":{"generate":{"count":10}},"label":")" + umlauts + "\"}]}"));
   expect_refusals({
       {"analyze", R"({"compare":[]})", invalid, "/compare", "1 to 16"},
       {"analyze", R"({"compare":[7]})", invalid, "/compare/0", "expected an object"},
@@ -143,7 +147,7 @@ TEST(ReadRequest, ReadsParametersOfMeasures) {
       [] {
         read_table("analyze", "text/csv", "0,0\n0.5,0\n0,0.5\n", {{"spectrum.range", "2.5"}});
       },
-      {"analyze", "spectrum.range alone", invalid, "/spectrum", "unknown field"});
+      {"analyze", "spectrum.range alone", invalid, "/spectrum", "add spectrum to measures"});
 }
 
 TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {

@@ -36,6 +36,11 @@ TEST(ReadPicture, TakesANameOrAnObject) {
   EXPECT_EQ(argument(call.arguments, "color"), 2);
   expect_refused([] { read_picture(7, "/picture"); }, ErrorCode::invalid_parameters, "/picture",
                  "expected a string");
+  expect_refused(
+      [] {
+        read_picture({{"color", "area"}}, "/picture");
+      },
+      ErrorCode::invalid_parameters, "/picture/name", "one of: voronoi");
   expect_refused([] { read_picture("Voronoi", "/picture"); }, ErrorCode::invalid_parameters, "/picture",
                  "voronoi");
 }
@@ -49,7 +54,7 @@ TEST(PictureOfQuery, GathersItsParameters) {
   for (const Query& twice :
        {Query{{"picture", "a"}, {"picture", "b"}}, Query{{"picture.x", "1"}, {"picture.x", "1"}}})
     expect_refused([&] { picture_of_query(twice); }, ErrorCode::invalid_parameters,
-                   twice[0].first == "picture" ? "/picture" : "/picture.x", "twice");
+                   twice[0].first == "picture" ? "/picture" : "/picture/x", "twice");
   expect_refused(
       [] {
         picture_of_query({{"picture", ""}});
@@ -138,14 +143,41 @@ TEST(RequireDrawable, CountsAllSetsTogether) {
 
 TEST(RequireDrawable, LimitsTheMemory) {
   const PictureCall wide = read_picture({{"name", "periodogram"}, {"range", 12}}, "/picture");
-  const Request thin = read("generate", R"({"count":900000,"domain":{"width":30}})");
-  expect_refused([&] { require_drawable(thin, wide, {}); }, ErrorCode::too_large, "/picture/range",
-                 "smaller range");
-  const Result result = run("generate", R"({"method":"white-noise","count":300,"domain":{"width":1000}})");
+  const Request many = read("generate", R"({"count":900000})");
+  expect_refused([&] { require_drawable(many, wide, {}); }, ErrorCode::too_large, "/picture/range",
+                 "the limit here is");
+  const Request thin = read("generate", R"({"count":900000,"domain":{"width":900}})");
+  expect_refused([&] { require_drawable(thin, wide, {}); }, ErrorCode::too_large, "/picture",
+                 "more than a million");
+  const Result result = run("generate", R"({"method":"white-noise","count":3000})");
   Limits limits;
   limits.memory_bytes = 10 << 20;
   expect_refused([&] { draw_result(result, wide, limits, Control()); }, ErrorCode::too_large,
-                 "/picture/range", "above the limit of 10");
+                 "/picture/range", "MiB, and the limit here is 10 MiB");
+}
+
+TEST(RequireDrawable, LimitsTheTime) {
+  const Request request = read("generate", R"({"count":20000})");
+  const PictureCall slow =
+      read_picture({{"name", "zone-plate"}, {"columns", 4096}, {"sigma", 8}}, "/picture");
+  expect_refused([&] { require_drawable(request, slow, {}); }, ErrorCode::too_large, "/picture/columns",
+                 "s, and the limit here is 10 s");
+  for (const Picture& picture : pictures())
+    if (!picture.needs_history) {
+      EXPECT_NO_THROW(require_drawable(request, read_picture(picture.name, "/picture"), {})) << picture.name;
+    }
+}
+
+TEST(MergedPicture, TakesParametersOfTheQueryForThePictureOfTheRequest) {
+  EXPECT_EQ(merged_picture("spectrum", nullptr), "spectrum");
+  EXPECT_EQ(merged_picture("spectrum", "points"), "points");
+  EXPECT_EQ(merged_picture("spectrum", {{"scale", 2}}), (json{{"name", "spectrum"}, {"scale", 2}}));
+  EXPECT_EQ(merged_picture({{"name", "spectrum"}, {"range", 2}}, {{"scale", 2}}),
+            (json{{"name", "spectrum"}, {"range", 2}, {"scale", 2}}));
+  EXPECT_EQ(merged_picture({{"name", "spectrum"}}, {{"name", "points"}, {"scale", 2}}),
+            (json{{"name", "points"}, {"scale", 2}}));
+  for (const json& none : {json(), json("")})
+    EXPECT_EQ(merged_picture(none, {{"color", "area"}}), (json{{"name", "voronoi"}, {"color", "area"}}));
 }
 
 TEST(DrawResult, SaysWhichParameterIsBad) {

@@ -1,5 +1,6 @@
 // The service as a client sees it: results, formats, contract, metrics.
 #include <cmath>
+#include <future>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -168,6 +169,60 @@ TEST_F(Service, AveragesOverKeptResults) {
   const Answer refused = caller.post("/v1/analyze", json{{"points", {{"job", several}}}}.dump());
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(refused.parsed()["errors"][0]["pointer"], "/points/job");
+}
+
+TEST_F(Service, ParametersOfAPictureInTheQueryKeepTheRequestsPicture) {
+  const std::string body = R"({"points":{"generate":{"count":50}},"picture":"spectrum"})";
+  const Answer spectrum = caller.post("/v1/analyze?format=svg&picture.range=2", body);
+  ASSERT_EQ(spectrum.status, 200) << spectrum.body;
+  EXPECT_THAT(spectrum.body, HasSubstr("radial mean power"));
+}
+
+TEST_F(Service, APictureOfTheQueryIsTheSameSynchronousAndNot) {
+  const std::string body = R"({"points":{"generate":{"count":50}},"picture":"points"})";
+  const std::string query = "?picture=periodogram&picture.range=1.5";
+  const Answer sync = caller.post("/v1/analyze" + query + "&format=svg", body);
+  ASSERT_EQ(sync.status, 200) << sync.body;
+  const Answer accepted = caller.post("/v1/analyze" + query, body, {{"Prefer", "respond-async"}});
+  ASSERT_EQ(accepted.status, 202) << accepted.body;
+  const std::string id = accepted.parsed()["id"];
+  ASSERT_EQ(caller.finished(id)["status"], "successful");
+  const std::string path = "/v1/jobs/" + id + "/result?format=svg";
+  EXPECT_EQ(caller.get(path).body, sync.body);
+  EXPECT_THAT(caller.get(path + "&picture=spectrum").body, HasSubstr("radial mean power"));
+  const Answer unknown = caller.get(path + "&colour=red");
+  EXPECT_EQ(unknown.status, 422);
+  EXPECT_EQ(unknown.parsed()["errors"][0]["pointer"], "/colour");
+}
+
+TEST(ServicePictures, LeaveThreadsForOtherRequests) {
+  ServedApp app([](Config& config) { config.http.threads = 2; });
+  const Caller caller(app.port());
+  const std::string id = caller.submit("generate", R"({"count":20000})");
+  ASSERT_EQ(caller.finished(id)["status"], "successful");
+  const std::string path = "/v1/jobs/" + id + "/result?format=png&picture=zone-plate&picture.columns=700";
+  std::vector<std::future<Answer>> pictures;
+  for (int k = 0; k < 6; ++k)
+    pictures.push_back(std::async(std::launch::async, [&] { return caller.get(path); }));
+  EXPECT_EQ(caller.get("/v1/operations").status, 200);
+  int drawn = 0;
+  for (auto& picture : pictures) {
+    const Answer answer = picture.get();
+    drawn += answer.status == 200;
+    if (answer.status == 200) continue;
+    EXPECT_EQ(answer.problem(), "overloaded") << answer.body;
+    EXPECT_NE(answer.header("Retry-After"), "");
+  }
+  EXPECT_GE(drawn, 1);
+  EXPECT_EQ(caller.get(path).status, 200);
+}
+
+TEST_F(Service, RefusesPicturesThatTakeTooLong) {
+  const std::string query = "?format=png&picture=zone-plate&picture.columns=4096&picture.sigma=8";
+  const Answer refused = caller.post("/v1/generate" + query, R"({"count":20000})");
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.problem(), "too-large");
+  EXPECT_EQ(refused.parsed()["errors"][0]["pointer"], "/picture/columns");
 }
 
 TEST_F(Service, RefusesFormatsItDoesNotHaveWithTheListOfThoseItHas) {

@@ -31,7 +31,7 @@ Series series_of(const PictureGroup& group, const Quantity& quantity, std::size_
   Series series;
   if (named) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
   series.color = color_of_class(number);
-  series.dash_px = number < 7 ? 0 : 5;
+  series.dash_px = dash_px_of_class(number);
   constexpr std::size_t most_marks = 60;
   series.marks = group.history.size() <= most_marks;
   for (const SweepRecord& sweep : group.history) {
@@ -102,8 +102,9 @@ Picture convergence_picture() {
   last.minimum = 1;
   last.maximum = 1e9;
   last.fallback = "where the longest ends";
-  picture.parameters = {last, size_parameter(width_px)};
+  picture.parameters = {last, size_parameter(width_px, least_chart_px)};
   picture.make = make;
+  picture.cost = [](const PictureSize&, const Arguments&) { return Cost{0.01, 1e6}; };
   picture.needs_history = true;
   return picture;
 }

@@ -13,14 +13,13 @@ namespace wellspaced {
 namespace {
 
 constexpr double correlation_px = 560, histogram_px = 260;
-constexpr std::size_t most_plain_colors = 7;
 
 /// How a group's curve looks among others. The legend names it where there are several.
 Series series_for(const PictureGroup& group, std::size_t number, std::size_t groups) {
   Series series;
   if (groups > 1) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
   series.color = color_of_class(number);
-  series.dash_px = number < most_plain_colors ? 0 : 5;
+  series.dash_px = dash_px_of_class(number);
   return series;
 }
 
@@ -79,7 +78,17 @@ std::pair<double, double> bulk_of(const Histogram& h, double tail) {
   return {h.low + static_cast<double>(first) * h.width, h.low + static_cast<double>(last) * h.width};
 }
 
-/// What shows nearly all values of every group.
+/// Of the values that are beyond all bins, in the group that has the most.
+double share_beyond(std::span<const Distributions> all, const Quantity& quantity) {
+  double most = 0;
+  for (const Distributions& d : all) {
+    const Histogram& h = d.*quantity.histogram;
+    most = std::max(most, static_cast<double>(h.above) / static_cast<double>(h.total()));
+  }
+  return most;
+}
+
+/// What shows nearly all values of every group, as far as bins go.
 Axis axis_of(std::span<const Distributions> all, const Quantity& quantity) {
   constexpr double tail = 0.001;
   Axis axis{1e300, -1e300, quantity.title};
@@ -88,6 +97,8 @@ Axis axis_of(std::span<const Distributions> all, const Quantity& quantity) {
     axis.low = std::min(axis.low, low);
     axis.high = std::max(axis.high, high);
   }
+  const double share = share_beyond(all, quantity);
+  if (share > 0.005) axis.title += " (" + number_label(100 * share, 2) + " % beyond)";
   if (quantity.whole) {
     const double step = std::ceil((axis.high - axis.low) / 12);
     for (double k = std::ceil(axis.low); k < axis.high; k += step)
@@ -167,8 +178,13 @@ Picture pair_correlation_picture() {
   picture.title = "Pair correlation";
   picture.description = "g(r), averaged over the sets of a group; one curve a group.";
   picture.parameters = pair_correlation_parameters();
-  picture.parameters.push_back(size_parameter(correlation_px));
+  picture.parameters.push_back(size_parameter(correlation_px, least_chart_px));
   picture.make = make_pair_correlation;
+  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+    const PairCorrelationOptions options = pair_correlation_options(arguments);
+    const double pairs = 1.9 * options.reach * options.reach * size.n;
+    return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
+  };
   picture.needs_torus = true;
   return picture;
 }
@@ -180,8 +196,11 @@ Picture distributions_picture() {
   picture.description =
       "Histograms of local ratios, valences, angles, edges, nearest distances and cell areas; one curve a "
       "group.";
-  picture.parameters = {size_parameter(histogram_px)};
+  picture.parameters = {size_parameter(histogram_px, least_chart_px)};
   picture.make = make_distributions;
+  picture.cost = [](const PictureSize& size, const Arguments&) {
+    return Cost{3e-6 * size.n * size.sets, 500 * size.n};
+  };
   return picture;
 }
 

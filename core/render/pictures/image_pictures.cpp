@@ -147,6 +147,9 @@ Picture zone_plate_picture() {
   picture.parameters = zone_plate_parameters();
   picture.parameters.push_back(size_parameter(plate_px));
   picture.make = make_zone_plate;
+  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+    return zone_plate_cost(size.n, size.aspect, zone_plate_options(arguments));
+  };
   picture.needs_torus = true;
   return picture;
 }
@@ -160,8 +163,12 @@ Picture differential_picture() {
       "in two "
       "dimensions and by rings; averaged over the sets of a group.";
   picture.parameters = differential_parameters();
-  picture.parameters.push_back(size_parameter(domain_px));
+  picture.parameters.push_back(size_parameter(domain_px, least_chart_px));
   picture.make = make_differential;
+  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+    const Cost one = differential_cost(size.n, differential_options(arguments));
+    return Cost{size.sets * one.seconds, (1 + size.sets / 8) * one.bytes};
+  };
   picture.needs_torus = true;
   return picture;
 }

@@ -17,13 +17,13 @@ const std::vector<Picture> picture_rows = {
 
 std::span<const Picture> pictures() { return picture_rows; }
 
-Parameter size_parameter(double fallback_px) {
+Parameter size_parameter(double fallback_px, double least_px) {
   Parameter p;
   p.name = "size_px";
   p.type = Parameter::Type::integer;
   p.description = "longer side of a panel";
   p.unit = "pixels";
-  p.minimum = 50;
+  p.minimum = least_px;
   p.maximum = 4000;
   p.fallback = std::to_string(static_cast<int>(fallback_px));
   return p;

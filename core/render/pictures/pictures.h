@@ -21,15 +21,20 @@ struct PictureGroup {
   const Sizing* sizing = nullptr;  ///< that the sets were made for; may be missing
 };
 
+/// What a picture's cost depends on.
+struct PictureSize {
+  double n = 0;  ///< points a set
+  double sets = 1;
+  double aspect = 1;  ///< longer over shorter side of the domain
+};
+
 /// One kind of picture.
 struct Picture : Method {
   /// Several groups are drawn side by side, or as several curves. Errors: with the parameter's pointer for a
   /// bad one; those of the measure that is drawn; cancelled, deadline_exceeded. Determinism: the same bytes
   /// on any number of threads.
   Drawing (*make)(std::span<const PictureGroup>, const Arguments&, const Control&) = nullptr;
-  /// The most memory it takes for sets of n points on a domain of that aspect ratio (>= 1), where that is
-  /// more than a few times the points'.
-  double (*bytes)(double n, double aspect, const Arguments&) = nullptr;
+  Cost (*cost)(const PictureSize&, const Arguments&) = nullptr;  ///< of one group, about
   bool draws_each_point = false;
   bool needs_torus = false;    ///< it means nothing on another domain
   bool needs_history = false;  ///< of an optimizer

@@ -237,6 +237,11 @@ Drawing make(Kind kind, std::span<const PictureGroup> groups, const Arguments& a
       all.push_back(with_caption(panel_of(group.sets[s], kind, color, size_px, control),
                                  caption_of(group, s, sets_each)));
   Drawing sheet = grid_of(std::move(all), columns_of(panels), panel_gap_px);
+  if (groups.size() == 1 && sets_each < groups[0].sets.size())
+    sheet = stack_of({std::move(sheet), text_rows({"the first " + std::to_string(sets_each) + " of " +
+                                                   std::to_string(groups[0].sets.size()) + " sets"},
+                                                  300, 13)},
+                     8);
   if (color) {
     ColorScale scale = scale_of(*color);
     const Axis axis{scale.best, scale.worst, scale.name, scale.ticks};
@@ -260,6 +265,7 @@ Picture row(const char* name, const char* title, const char* description) {
   picture.parameters = {color, size_parameter(alone_px)};
   picture.parameters.back().fallback = "900, several panels 420";
   picture.draws_each_point = true;
+  picture.cost = [](const PictureSize& size, const Arguments&) { return Cost{3e-5 * size.n, 1000 * size.n}; };
   return picture;
 }
 

@@ -25,8 +25,14 @@ Picture overview_picture();
 /// The samples as black dots, for pictures that show other things beside.
 Drawing plain_points(const PointSet& points, double size_px, const Control& control);
 
-Parameter size_parameter(double fallback_px);
+Parameter size_parameter(double fallback_px, double least_px = 50);
 double size_px_of(const Arguments& arguments, double fallback_px);
+
+/// Of periodograms of all sets up to that range.
+Cost periodogram_cost(const PictureSize& size, double range);
+
+/// Below that, the axes of a chart have no room for their names.
+inline constexpr double least_chart_px = 180;
 
 /// What stands beside what.
 inline constexpr double panel_gap_px = 24;

@@ -90,14 +90,6 @@ double computed_range(double n, double aspect, double range) {
   return k_max_of(n, aspect, full_range) <= most_in_full ? std::max(range, full_range) : range;
 }
 
-/// Of a periodogram, and of two results where sets are averaged.
-double bytes_of(double n, double aspect, double range) {
-  const double k_max = k_max_of(n, aspect, range);
-  if (!(k_max <= largest_k_max)) return 1e30;
-  return static_cast<double>(periodogram_bytes(static_cast<std::size_t>(n), static_cast<int>(k_max), 8)) +
-         16 * k_max * k_max;
-}
-
 struct Curves {
   Spectrum spectrum;
   Series power, anisotropy;
@@ -138,13 +130,27 @@ double highest_db(const std::vector<Curves>& all) {
   return high;
 }
 
+/// The beginning of the axis that shows all anisotropies but those of the few frequencies in small rings.
+double lowest_db(const std::vector<Curves>& all) {
+  double low = 0;
+  for (const Curves& curves : all) {
+    std::vector<double> sorted;
+    for (const double db : curves.anisotropy.y)
+      if (std::isfinite(db)) sorted.push_back(db);
+    std::sort(sorted.begin(), sorted.end());
+    if (!sorted.empty()) low = std::min(low, sorted[sorted.size() / 20]);
+    low = std::min(low, 0.0 - 10 * portable_log10(curves.spectrum.sets));
+  }
+  return 5 * std::floor(low / 5) - 5;
+}
+
 double expected_db(const PictureGroup& group) {
   return 0.0 - 10 * portable_log10(static_cast<double>(group.sets.size()));
 }
 
 /// Of axes that all panels share.
 struct Limits {
-  double range, power, db;
+  double range, power, db_low, db_high;
 };
 
 Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& limits, double width_px) {
@@ -164,10 +170,10 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& l
   anisotropy.height_px = 0.3 * width_px;
   anisotropy.x = power.x;
   const double expected = expected_db(group);
-  const double lowest = 5 * std::floor(expected / 5) - 5;
-  anisotropy.y = {lowest, limits.db, "anisotropy, dB", {}};
-  const double step = limits.db - lowest > 25 ? 10 : 5;
-  for (double db = step * std::ceil(lowest / step); db <= limits.db; db += step)
+  const double lowest = limits.db_low;
+  anisotropy.y = {lowest, limits.db_high, "anisotropy, dB", {}};
+  const double step = limits.db_high - lowest > 25 ? 10 : 5;
+  for (double db = step * std::ceil(lowest / step); db <= limits.db_high; db += step)
     anisotropy.y.ticks.push_back({db, number_label(db, 3)});
   anisotropy.series = {std::move(curves.anisotropy)};
   anisotropy.series[0].color = color_of_class(1);
@@ -194,7 +200,7 @@ Drawing drawn_alike(std::span<const PictureGroup> groups, double range, const Co
     curves.push_back(curves_of(group, range, control));
     powers.push_back(curves.back().power);
   }
-  const Limits limits{range, round_high(powers, 1.9, 8), highest_db(curves)};
+  const Limits limits{range, round_high(powers, 1.9, 8), lowest_db(curves), highest_db(curves)};
   std::vector<Drawing> panels;
   for (std::size_t g = 0; g < groups.size(); ++g)
     panels.push_back(panel(groups[g], std::move(curves[g]), limits));
@@ -235,6 +241,14 @@ Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arg
 
 }  // namespace
 
+Cost periodogram_cost(const PictureSize& size, double range) {
+  const double k_max = k_max_of(size.n, size.aspect, range);
+  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
+  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
+  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max),
+          static_cast<double>(bytes) + 16 * k_max * k_max};
+}
+
 Picture overview_picture() {
   Picture picture;
   picture.name = "overview";
@@ -243,10 +257,12 @@ Picture overview_picture() {
       "The points of a group's first set, the periodogram as an image, and radial mean power and anisotropy "
       "below, the "
       "latter averaged over the group's sets.";
-  picture.parameters = {size_parameter(overview_px)};
+  picture.parameters = {size_parameter(overview_px, least_chart_px)};
   picture.make = make_overview;
-  picture.bytes = [](double n, double aspect, const Arguments&) {
-    return bytes_of(n, aspect, computed_range(n, aspect, curve_range));
+  picture.cost = [](const PictureSize& size, const Arguments&) {
+    const Cost curves = periodogram_cost(size, computed_range(size.n, size.aspect, curve_range)),
+               image = periodogram_cost(size, image_range);
+    return Cost{curves.seconds + image.seconds + 3e-5 * size.n, 2 * std::max(curves.bytes, image.bytes)};
   };
   picture.draws_each_point = true;
   picture.needs_torus = true;
@@ -258,10 +274,11 @@ Picture periodogram_picture() {
   picture.name = "periodogram";
   picture.title = "Periodogram";
   picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(image_range), size_parameter(image_px)};
+  picture.parameters = {range_parameter(image_range), size_parameter(image_px, least_chart_px)};
   picture.make = make_periodogram;
-  picture.bytes = [](double n, double aspect, const Arguments& arguments) {
-    return 2 * bytes_of(n, aspect, range_of(arguments, image_range));  // and the image
+  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+    const Cost cost = periodogram_cost(size, range_of(arguments, image_range));
+    return Cost{cost.seconds, 2 * cost.bytes};  // and the image
   };
   picture.needs_torus = true;
   return picture;
@@ -272,10 +289,10 @@ Picture spectrum_picture() {
   picture.name = "spectrum";
   picture.title = "Radial mean power and anisotropy";
   picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(curve_range), size_parameter(curves_px)};
+  picture.parameters = {range_parameter(curve_range), size_parameter(curves_px, least_chart_px)};
   picture.make = make_spectrum;
-  picture.bytes = [](double n, double aspect, const Arguments& arguments) {
-    return bytes_of(n, aspect, computed_range(n, aspect, range_of(arguments, curve_range)));
+  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+    return periodogram_cost(size, computed_range(size.n, size.aspect, range_of(arguments, curve_range)));
   };
   picture.needs_torus = true;
   return picture;
