@@ -93,7 +93,12 @@ Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
     control.set_deadline(Control::Clock::now() + std::chrono::duration_cast<Control::Clock::duration>(most),
                          "to draw this picture takes too long; ask for another, or for one of fewer points");
   }
-  return encode_result(result, wanted.format, wanted.picture, limits, control);
+  try {
+    return encode_result(result, wanted.format, wanted.picture, limits, control);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::cancelled) throw;
+    throw Error(ErrorCode::draining, "the server is stopping; ask again in a moment");
+  }
 }
 
 }  // namespace
