@@ -87,9 +87,10 @@ DifferentialOptions differential_options(const Arguments& arguments) {
   return options;
 }
 
-Cost zone_plate_cost(double n, double aspect, const ZonePlateOptions& options) {
+Cost zone_plate_cost(double n, double height_over_width, const ZonePlateOptions& options) {
   const double columns = options.columns ? *options.columns : 0;
-  const double pixels = std::max(n, columns * columns * aspect), samples = 28 * options.sigma * options.sigma;
+  const double pixels = std::max(n, columns * columns * height_over_width),
+               samples = 28 * options.sigma * options.sigma;
   return {5e-7 * n + pixels * (6e-7 + 3e-8 * std::min(samples, n)), 60 * n + 40 * pixels};
 }
 

@@ -9,6 +9,15 @@
 
 namespace wellspaced {
 
+/// What the cost of a measure or picture depends on: the sets that it averages over or shows.
+struct SetsSize {
+  double n = 0;  ///< points a set
+  double sets = 1;
+  double aspect = 1;             ///< longer over shorter side of the domain
+  double height_over_width = 1;  ///< of the domain
+  bool alone = true;             ///< nothing is compared with them
+};
+
 // Options of measures as parameters, for the measure and for the picture of it.
 
 std::vector<Parameter> pair_correlation_parameters();
@@ -16,8 +25,8 @@ PairCorrelationOptions pair_correlation_options(const Arguments& arguments);
 
 std::vector<Parameter> zone_plate_parameters();
 ZonePlateOptions zone_plate_options(const Arguments& arguments);
-/// Of one set of n points on a domain of that aspect ratio, about.
-Cost zone_plate_cost(double n, double aspect, const ZonePlateOptions& options);
+/// Of one set of n points, about.
+Cost zone_plate_cost(double n, double height_over_width, const ZonePlateOptions& options);
 
 std::vector<Parameter> differential_parameters();
 DifferentialOptions differential_options(const Arguments& arguments);

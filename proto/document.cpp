@@ -56,7 +56,8 @@ json object_from_query(const Query& query) {
 /// {"measures": ["a"], "a": {"x": 1}} becomes {"measures": [{"measure": "a", "x": 1}]}.
 void move_measure_parameters(json& root) {
   json none = json::array();
-  for (json& wanted : root.contains("measures") ? root["measures"] : none) {
+  const bool listed = root.contains("measures") && root["measures"].is_array();
+  for (json& wanted : listed ? root["measures"] : none) {
     const std::string name = wanted.get<std::string>();
     const auto given = root.find(name);
     if (find_measure(name) == nullptr || given == root.end() || !given->is_object()) continue;
@@ -146,7 +147,7 @@ JsonDocument read_document(const RawRequest& raw, const Limits& limits) {
   if (root.contains("points"))
     throw Error(ErrorCode::invalid_parameters, "the points are the body; leave this parameter out",
                 "/points");
-  move_measure_parameters(root);
+  if (raw.operation == "analyze") move_measure_parameters(root);
   root["points"] = json::array();
   JsonDocument document{std::move(root), {}};
   document.tables.push_back({"/points", read_table(format, raw.body, rows)});

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
@@ -48,11 +47,21 @@ Cost cost_of(const PointSource& source) {
   return times(expected_points(source), {0, 32});
 }
 
-MeasureSize size_of(const SourceGroup& group) {
-  double n = 0;
-  for (const PointSource& set : group.sets) n = std::max(n, expected_points(set));
+SetsSize size_of(const SourceGroup& group) {
+  SetsSize size;
+  for (const PointSource& set : group.sets) size.n = std::max(size.n, expected_points(set));
+  size.sets = static_cast<double>(group.sets.size());
   const Vec3 sides = domain_of(group.sets.front()).box().size;
-  return {n, static_cast<double>(group.sets.size()), std::max(sides.x / sides.y, sides.y / sides.x)};
+  size.height_over_width = sides.y / sides.x;
+  size.aspect = std::max(size.height_over_width, 1 / size.height_over_width);
+  return size;
+}
+
+/// While a measure is made, and afterwards.
+Cost with_kept(const MeasureCall& call, const SetsSize& size) {
+  Cost cost = call.measure->cost(size, call.arguments);
+  if (call.measure->kept_bytes != nullptr) cost.bytes += call.measure->kept_bytes(size, call.arguments);
+  return cost;
 }
 
 Cost cost_of(const AnalyzeRequest& request) {
@@ -63,8 +72,12 @@ Cost cost_of(const AnalyzeRequest& request) {
       cost = cost + cost_of(set);
       kept += bytes_kept * expected_points(set);
     }
-    for (const MeasureCall& call : request.measures)
-      cost = cost + call.measure->cost(size_of(group), call.arguments);
+    for (const MeasureCall& call : request.measures) {
+      const SetsSize size = size_of(group);
+      const Cost own = call.measure->cost(size, call.arguments);
+      cost = cost + own;
+      kept += with_kept(call, size).bytes - own.bytes;
+    }
   }
   return {cost.seconds, cost.bytes + kept};
 }
@@ -79,22 +92,21 @@ void require_affordable_measures(const AnalyzeRequest& request, const Limits& li
   const auto limit = static_cast<double>(limits.memory_bytes);
   for (const SourceGroup& group : request.groups)
     for (const MeasureCall& call : request.measures) {
-      const MeasureSize size = size_of(group);
-      if (call.measure->cost(size, call.arguments).bytes <= limit) continue;
+      const SetsSize size = size_of(group);
+      if (with_kept(call, size).bytes <= limit) continue;
       for (const Parameter& p : call.measure->parameters) {
         const auto fits = [&](double value) {
-          Arguments smaller = call.arguments;
-          smaller[p.name] = value;
-          return call.measure->cost(size, smaller).bytes <= limit;
+          MeasureCall smaller = call;
+          smaller.arguments[p.name] = value;
+          return with_kept(smaller, size).bytes <= limit;
         };
         if (p.type == Parameter::Type::choice || !fits(p.minimum)) continue;
         double low = p.minimum, high = argument(call.arguments, p.name).value_or(p.maximum);
         for (int step = 0; step < 60; ++step) ((fits((low + high) / 2)) ? low : high) = (low + high) / 2;
         throw Error(ErrorCode::too_large,
                     call.measure->name + " of so many points would need about " +
-                        mebibytes(call.measure->cost(size, call.arguments).bytes) +
-                        ", but the limit here is " + mebibytes(limit) + "; ask for a " + p.name +
-                        " of at most " +
+                        mebibytes(with_kept(call, size).bytes) + ", but the limit here is " +
+                        mebibytes(limit) + "; ask for a " + p.name + " of at most " +
                         number_text(p.type == Parameter::Type::integer ? std::floor(low)
                                                                        : std::floor(low * 100) / 100),
                     call.pointer + "/" + p.name);
@@ -106,8 +118,10 @@ void require_affordable_measures(const AnalyzeRequest& request, const Limits& li
 std::string size_field(const Request& request) {
   if (const auto* generate = std::get_if<GenerateRequest>(&request.operation))
     return argument(generate->arguments, "count") ? "/count" : "/radius";
-  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation))
-    return analyze->groups.back().pointer;
+  if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
+    const auto fewer = [](const SourceGroup& a, const SourceGroup& b) { return size_of(a).n < size_of(b).n; };
+    return std::max_element(analyze->groups.begin(), analyze->groups.end(), fewer)->pointer;
+  }
   return "/points";
 }
 

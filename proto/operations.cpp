@@ -84,6 +84,7 @@ ordered_json operations_json(const Limits& limits) {
   out["pictures"] = methods_json(pictures());
   out["limits"] = {{"body_bytes", limits.body_bytes},
                    {"picture_points", limits.picture_points},
+                   {"picture_seconds", limits.picture_seconds},
                    {"sync_seconds", limits.sync_seconds},
                    {"memory_bytes", limits.memory_bytes}};
   return out;

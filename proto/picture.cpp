@@ -41,28 +41,33 @@ Method with_scale(const Picture& picture) {
 /// What a picture is made of, group by group.
 class Subject {
  public:
-  void begin_group() { groups_.push_back({0, 0, 1}); }
+  void begin_group() {
+    groups_.emplace_back();
+    groups_.back().sets = 0;
+    for (SetsSize& group : groups_) group.alone = groups_.size() == 1;
+  }
   void add(double points, const Domain& domain) {
     const Vec3 sides = domain.box().size;
-    PictureSize& group = groups_.back();
+    SetsSize& group = groups_.back();
     group.n = std::max(group.n, points);
     group.sets += 1;
-    group.aspect = std::max({group.aspect, sides.x / sides.y, sides.y / sides.x});
+    group.height_over_width = sides.y / sides.x;
+    group.aspect = std::max(group.height_over_width, 1 / group.height_over_width);
   }
 
   double largest() const {
     double n = 0;
-    for (const PictureSize& group : groups_) n = std::max(n, group.n);
+    for (const SetsSize& group : groups_) n = std::max(n, group.n);
     return n;
   }
   double total() const {
     double sum = 0;
-    for (const PictureSize& group : groups_) sum += group.n * group.sets;
+    for (const SetsSize& group : groups_) sum += group.n * group.sets;
     return sum;
   }
   Cost cost(const PictureCall& call) const {
     Cost sum;
-    for (const PictureSize& group : groups_) {
+    for (const SetsSize& group : groups_) {
       const Cost one = call.picture->cost(group, call.arguments);
       sum = {sum.seconds + one.seconds, std::max(sum.bytes, one.bytes)};
     }
@@ -70,10 +75,10 @@ class Subject {
   }
 
  private:
-  std::vector<PictureSize> groups_;
+  std::vector<SetsSize> groups_;
 };
 
-/// The first parameter of which a smaller value makes the picture affordable, or the picture itself.
+/// The first parameter whose default makes the picture affordable, or the picture itself.
 std::string culprit(const Subject& subject, const PictureCall& call, const Limits& limits) {
   for (const Parameter& p : call.picture->parameters) {
     if (argument(call.arguments, p.name).value_or(0) == 0) continue;
@@ -115,6 +120,21 @@ void require_size(const Subject& subject, const PictureCall& call, const Limits&
               culprit(subject, call, limits));
 }
 
+/// What is known of a picture of these points before the work.
+void require_possible(const PictureCall& call, const Domain& domain, double n) {
+  if (call.picture->needs_torus && domain.type() != "torus")
+    throw Error(ErrorCode::invalid_parameters,
+                call.picture->name + " means nothing on a " + std::string(domain.type()) +
+                    "; ask for points or voronoi",
+                "/picture");
+  if (call.picture->check == nullptr) return;
+  try {
+    call.picture->check(domain, n, call.arguments);
+  } catch (const Error& error) {
+    throw error.within("/picture");
+  }
+}
+
 void require_history(bool there, const Picture& picture) {
   if (!picture.needs_history || there) return;
   throw Error(ErrorCode::invalid_parameters,
@@ -122,14 +142,6 @@ void require_history(bool there, const Picture& picture) {
                   " shows how an optimizer got on; ask for it with optimize, of a kept job by GET "
                   "/v1/jobs/ID/result?picture=convergence, or analyze points that are {\"optimize\": {...}}",
               "/picture");
-}
-
-void require_torus(const Domain& domain, const Picture& picture) {
-  if (!picture.needs_torus || domain.type() == "torus") return;
-  throw Error(
-      ErrorCode::invalid_parameters,
-      picture.name + " means nothing on a " + std::string(domain.type()) + "; ask for points or voronoi",
-      "/picture");
 }
 
 bool is_optimized(const PointSource& source) {
@@ -191,7 +203,7 @@ void require_drawable(const Request& request, const PictureCall& call, const Lim
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) {
     for (const SourceGroup& group : analyze->groups) {
       require_history(is_optimized(group.sets.front()), *call.picture);
-      require_torus(domain_of(group.sets.front()), *call.picture);
+      require_possible(call, domain_of(group.sets.front()), expected_points(group.sets.front()));
       subject.begin_group();
       for (const PointSource& set : group.sets) subject.add(expected_points(set), domain_of(set));
     }
@@ -200,7 +212,7 @@ void require_drawable(const Request& request, const PictureCall& call, const Lim
     require_history(optimize != nullptr, *call.picture);
     const Domain& domain = optimize != nullptr ? domain_of(optimize->points)
                                                : *std::get<GenerateRequest>(request.operation).domain;
-    require_torus(domain, *call.picture);
+    require_possible(call, domain, expected_points(request));
     subject.begin_group();
     subject.add(expected_points(request), domain);
   }
@@ -216,7 +228,7 @@ Drawing draw_result(const Result& result, const PictureCall& call, const Limits&
     subject.begin_group();
     for (const PointSet& set : group.sets) subject.add(static_cast<double>(set.size()), *set.domain);
     require_history(!groups.back().history.empty(), *call.picture);
-    require_torus(*group.sets.front().domain, *call.picture);
+    require_possible(call, *group.sets.front().domain, static_cast<double>(group.sets.front().size()));
   }
   require_size(subject, call, limits);
   try {

@@ -104,16 +104,34 @@ std::vector<SourceGroup> compared_groups(const json& value, SourceReader& reader
   return groups;
 }
 
+double points_of(const SourceGroup& group) {
+  double sum = 0;
+  for (const PointSource& set : group.sets) sum += expected_points(set);
+  return sum;
+}
+
 void require_total(const std::vector<SourceGroup>& groups, std::uint64_t limit) {
   double total = 0;
-  for (const SourceGroup& group : groups)
-    for (const PointSource& set : group.sets) total += expected_points(set);
+  for (const SourceGroup& group : groups) total += points_of(group);
   if (total <= static_cast<double>(limit)) return;
+  const auto fewer = [](const SourceGroup& a, const SourceGroup& b) { return points_of(a) < points_of(b); };
   throw Error(ErrorCode::too_large,
               "the sets have about " + number_text(std::round(total)) +
                   " points together, but the limit here is " + std::to_string(limit) +
                   "; ask for fewer sets or points",
-              groups.back().pointer);
+              std::max_element(groups.begin(), groups.end(), fewer)->pointer);
+}
+
+/// What is known of a measure of these sets before the work.
+void require_possible(const MeasureCall& call, const SourceGroup& group) {
+  const Domain& domain = domain_of(group.sets.front());
+  require_meaning(*call.measure, domain, call.pointer);
+  if (call.measure->check == nullptr) return;
+  try {
+    call.measure->check(domain, expected_points(group.sets.front()), call.arguments);
+  } catch (const Error& error) {
+    throw error.within(call.pointer);
+  }
 }
 
 AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limits& limits) {
@@ -135,8 +153,7 @@ AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limit
   require_total(request.groups, limits.analyze_points);
   for (const SourceGroup& group : request.groups) {
     require_alike(group);
-    for (const MeasureCall& call : request.measures)
-      require_meaning(*call.measure, domain_of(group.sets.front()), call.pointer);
+    for (const MeasureCall& call : request.measures) require_possible(call, group);
   }
   return request;
 }

@@ -87,6 +87,7 @@ class App::Impl {
           guard_.wake();
         });
     context_.pool = pool_.get();
+    context_.wake = [this] { guard_.wake(); };
   }
 
   int port() const { return guard_.port(); }

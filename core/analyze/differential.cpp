@@ -179,18 +179,6 @@ class PairFinder {
   std::vector<double> radii_;  ///< at the tree's places, over r_ref
 };
 
-void require_options(const DifferentialOptions& options) {
-  const auto refuse = [](const char* message, const char* where) {
-    throw Error(ErrorCode::invalid_parameters, message, where);
-  };
-  if (!(options.reach >= 1 && options.reach <= 16))
-    refuse("the reach must be a number from 1 to 16", "/reach");
-  if (options.pixels < 3 || options.pixels > 1025 || options.pixels % 2 == 0)
-    refuse("the size must be an odd number of pixels from 3 to 1025", "/pixels");
-  if (!(options.sigma >= options.reach / 256 && options.sigma <= options.reach / 4))
-    refuse("sigma must be from a 256th to a fourth of the reach", "/sigma");
-}
-
 void require_radii(std::span<const double> radii, std::size_t n) {
   if (radii.size() != n)
     throw Error(ErrorCode::invalid_parameters,
@@ -239,6 +227,18 @@ void measure_rings(DifferentialDomain& domain) {
 }
 
 }  // namespace
+
+void require_options(const DifferentialOptions& options) {
+  const auto refuse = [](const char* message, const char* where) {
+    throw Error(ErrorCode::invalid_parameters, message, where);
+  };
+  if (!(options.reach >= 1 && options.reach <= 16))
+    refuse("the reach must be a number from 1 to 16", "/reach");
+  if (options.pixels < 3 || options.pixels > 1025 || options.pixels % 2 == 0)
+    refuse("the size must be an odd number of pixels from 3 to 1025", "/pixels");
+  if (!(options.sigma >= options.reach / 256 && options.sigma <= options.reach / 4))
+    refuse("sigma must be from a 256th to a fourth of the reach", "/sigma");
+}
 
 DifferentialDomain differential_domain(const PointSet& points, std::span<const double> radii,
                                        const DifferentialOptions& options, const Control& control) {

@@ -19,6 +19,9 @@ struct DifferentialOptions {
   double sigma = 0.05;
 };
 
+/// What differential_domain refuses of its options. Errors: invalid_parameters at /reach, /pixels, /sigma.
+void require_options(const DifferentialOptions& options);
+
 /// The density of differences between samples, 1 for white noise.
 ///
 /// Shapes: `density` is row-major, size x size, row 0 at the bottom; pixel (column, row) is at

@@ -49,7 +49,7 @@ Raster raster(const Domain& domain, std::size_t n, const std::optional<int>& wan
   return {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), sides.x, sides.y};
 }
 
-void require_options(const ZonePlateOptions& options) {
+void require_ranges(const ZonePlateOptions& options) {
   const auto refuse = [](const char* message, const char* where) {
     throw Error(ErrorCode::invalid_parameters, message, where);
   };
@@ -129,8 +129,13 @@ ZonePlateField zone_plate_field(const Domain& domain, std::size_t n, double freq
   return {width, frequency * width / mean_spacing(domain, n)};
 }
 
+void require_options(const ZonePlateOptions& options, const Domain& domain, std::size_t n) {
+  require_ranges(options);
+  raster(domain, std::max<std::size_t>(n, 1), options.columns);
+}
+
 ZonePlate zone_plate(const PointSet& points, const ZonePlateOptions& options, const Control& control) {
-  require_options(options);
+  require_ranges(options);
   if (points.size() == 0) throw Error(ErrorCode::degenerate_input, "no points show nothing of a zone plate");
   const Domain& domain = *points.domain;
   const Raster image = raster(domain, points.size(), options.columns);

@@ -69,6 +69,10 @@ struct ZonePlate {
 /// Methods for Generating Poisson Disk Distributions", 2008.
 ZonePlate zone_plate(const PointSet& points, const ZonePlateOptions& options, const Control& control);
 
+/// What zone_plate refuses of its options for so many points. Errors: invalid_parameters at /columns,
+/// /frequency, /sigma.
+void require_options(const ZonePlateOptions& options, const Domain& domain, std::size_t n);
+
 /// The field that `zone_plate` shows with `n` samples.
 ZonePlateField zone_plate_field(const Domain& domain, std::size_t n, double frequency);
 

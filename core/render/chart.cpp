@@ -19,6 +19,9 @@ std::string with_minus(const std::string& text) {
 
 /// With so many digits behind the point.
 std::string fixed_text(double value, int decimals) {
+  constexpr double longest = 1e15;
+  constexpr int most_decimals = 15;
+  if (std::abs(value) >= longest || decimals > most_decimals) return number_label(value, 4);
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals);
   std::string text(buffer, end.ptr);
@@ -84,7 +87,8 @@ class Painter {
   }
   /// Far outside of the frame is near enough.
   Vec2 place(double x, double y) const {
-    return {x_px(x), std::clamp(y_px(y), frame_.y - 1e4, frame_.bottom() + 1e4)};
+    return {std::clamp(x_px(x), frame_.x - 1e4, frame_.right() + 1e4),
+            std::clamp(y_px(y), frame_.y - 1e4, frame_.bottom() + 1e4)};
   }
 
   static std::vector<Tick> ticks_of(const Axis& axis, int count) {
@@ -108,6 +112,12 @@ class Painter {
                  {title_size_px, ink, Align::middle, true});
   }
 
+  /// Whether a point, or the line to a neighbor in x, may show.
+  bool may_show(const Series& s, std::size_t i) const {
+    const double before = i == 0 ? s.x[i] : s.x[i - 1], after = i + 1 == s.x.size() ? s.x[i] : s.x[i + 1];
+    return after >= chart_.x.low && before <= chart_.x.high;
+  }
+
   void line(const Series& s) {
     std::vector<Vec2> points;
     const auto flush = [&] {
@@ -117,7 +127,7 @@ class Painter {
       points.clear();
     };
     for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (std::isfinite(s.y[i]))
+      if (std::isfinite(s.y[i]) && may_show(s, i))
         points.push_back(place(s.x[i], s.y[i]));
       else
         flush();
@@ -176,7 +186,8 @@ std::string number_label(double value, int digits) {
 std::vector<Tick> round_ticks(double low, double high, int count) {
   double unit = 1;
   int decimals = 0;
-  const double wanted = (high - low) / count;
+  const double least = 1e-12 * std::max({std::abs(low), std::abs(high), 1e-290});
+  const double wanted = std::max((high - low) / count, least);
   for (; unit > wanted; unit /= 10) ++decimals;
   for (; unit * 10 <= wanted; unit *= 10) --decimals;
   double step = unit;
@@ -185,7 +196,9 @@ std::vector<Tick> round_ticks(double low, double high, int count) {
   if (step >= 9.99 * unit) --decimals;
   std::vector<Tick> ticks;
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  for (double k = first; k <= last; ++k) {
+  constexpr int most_ticks = 100;
+  for (int i = 0; first + i <= last && i < most_ticks; ++i) {
+    const double k = first + i;
     const double value = k * step + 0.0;  // no zero with a sign
     ticks.push_back({value, fixed_text(value, std::max(0, decimals))});
   }

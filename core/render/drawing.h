@@ -8,7 +8,8 @@
 
 namespace wellspaced {
 
-/// A picture that is still to be drawn, on whatever canvas.
+/// A picture that is still to be drawn, on whatever canvas. What it was made of, point sets and a control,
+/// has to be there until then.
 struct Drawing {
   double width_px = 0, height_px = 0;
   std::string title;  ///< for readers who can't see it
@@ -18,8 +19,8 @@ struct Drawing {
 /// SVG text without ids, so that several can stand in one page. Determinism: the same bytes everywhere.
 std::string to_svg(const Drawing& drawing);
 
-/// PNG with `scale` pixels for each of the drawing's. Errors: too_large at /scale for more than a hundred
-/// million pixels. Determinism: whole numbers throughout, so the same bytes on any CPU; the compression is
+/// PNG with `scale` pixels for each of the drawing's. Errors: too_large at /scale for more than forty million
+/// pixels. Determinism: whole numbers throughout, so the same bytes on any CPU; the compression is
 /// that of the zlib at hand.
 std::string to_png(const Drawing& drawing, double scale);
 

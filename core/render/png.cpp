@@ -3,6 +3,7 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 #include <png.h>
@@ -12,8 +13,20 @@
 namespace wellspaced {
 namespace {
 
+/// An exception must not pass through libpng, which is C.
+bool try_append(std::string& to, const char* bytes, std::size_t size) noexcept {
+  try {
+    to.append(bytes, size);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
 void append(png_structp png, png_bytep bytes, png_size_t size) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
+  if (!try_append(*static_cast<std::string*>(png_get_io_ptr(png)), reinterpret_cast<const char*>(bytes),
+                  size))
+    png_error(png, "out of memory");
 }
 
 bool is_gray(const Image& image) {
@@ -51,14 +64,14 @@ bool write_rows(png_structp png, png_infop info, const std::uint8_t* bytes, cons
 
 std::string write_png(const Image& image, double pixels_per_inch) {
   std::string out;
+  const bool gray = is_gray(image);
+  const std::vector<std::uint8_t> converted = gray ? grays(image) : std::vector<std::uint8_t>();
+  const std::uint8_t* bytes = gray ? converted.data() : image.rgb.data();
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   bool written = false;
   if (info != nullptr) {
     png_set_write_fn(png, &out, append, nullptr);
-    const bool gray = is_gray(image);
-    const std::vector<std::uint8_t> converted = gray ? grays(image) : std::vector<std::uint8_t>();
-    const std::uint8_t* bytes = gray ? converted.data() : image.rgb.data();
     written = write_rows(png, info, bytes, image, gray, pixels_per_inch);
   }
   png_destroy_write_struct(&png, &info);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -19,7 +18,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr double most_pixels = 1e8;
+constexpr double most_pixels = 4e7;
 constexpr std::size_t most_outline_points = 30'000;  // FreeType counts them in 16 bits
 
 /// Device pixels in 64ths, y up, as FreeType wants them.
@@ -88,9 +87,9 @@ class Outline final : public GlyphPen {
   std::vector<End> ends_;
 };
 
-/// Pieces of a line that are drawn, where dashes and gaps are of one length.
-std::vector<std::vector<Vec2>> dashes(std::span<const Vec2> points, double dash) {
-  std::vector<std::vector<Vec2>> pieces;
+/// Calls draw(piece) for the pieces of a line that are drawn, where dashes and gaps are of one length.
+template <class Draw>
+void for_each_dash(std::span<const Vec2> points, double dash, const Draw& draw) {
   double left = dash;
   bool on = true;
   std::vector<Vec2> piece = {points.front()};
@@ -102,15 +101,14 @@ std::vector<std::vector<Vec2>> dashes(std::span<const Vec2> points, double dash)
       way -= left;
       left = dash;
       piece.push_back(at);
-      if (on) pieces.push_back(piece);
+      if (on) draw(piece);
       on = !on;
       piece = {at};
     }
     left -= way;
     piece.push_back(points[i]);
   }
-  if (on) pieces.push_back(piece);
-  return pieces;
+  if (on) draw(piece);
 }
 
 class PngCanvas final : public Canvas {
@@ -220,8 +218,9 @@ class PngCanvas final : public Canvas {
 
   void stroke(std::span<const Vec2> points, bool closed, const Pen& pen, double opacity) {
     if (pen.dash_px > 0) {
-      for (const std::vector<Vec2>& piece : dashes(points, pen.dash_px))
+      for_each_dash(points, pen.dash_px, [&](std::span<const Vec2> piece) {
         stroke(piece, false, {pen.color, pen.width_px, 0}, opacity);
+      });
       return;
     }
     constexpr std::size_t longest = most_outline_points / 16;
@@ -304,10 +303,9 @@ class PngCanvas final : public Canvas {
 
 std::string to_png(const Drawing& drawing, double scale) {
   if (!(drawing.width_px * drawing.height_px * scale * scale <= most_pixels))
-    throw Error(
-        ErrorCode::too_large,
-        "this would be a picture of more than a hundred million pixels; ask for a smaller scale or size",
-        "/scale");
+    throw Error(ErrorCode::too_large,
+                "this would be a picture of more than forty million pixels; ask for a smaller scale or size",
+                "/scale");
   PngCanvas canvas(drawing, scale);
   drawing.draw(canvas);
   return canvas.finish();

@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <utility>
@@ -12,7 +12,8 @@ namespace {
 /// A length in pixels, to a hundredth.
 void append_px(std::string& out, double x) {
   char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::fixed, 2);
+  const double near = std::clamp(x, -1e9, 1e9);  // far outside of any sheet is far enough
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, near, std::chars_format::fixed, 2);
   std::string_view digits(buffer, static_cast<std::size_t>(end.ptr - buffer));
   digits = digits.substr(0, digits.find_last_not_of('0') + 1);
   if (digits.back() == '.') digits.remove_suffix(1);

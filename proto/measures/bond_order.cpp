@@ -38,7 +38,7 @@ Measure bond_order_measure() {
     return means_to_json<BondOrder>(fields, all);
   };
   row.schema = [] { return numbers_schema<BondOrder>(fields); };
-  row.cost = [](const MeasureSize& size, const Arguments&) {
+  row.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{8e-6 * size.n * size.sets, 400 * size.n + 8 * size.n * size.sets};
   };
   return row;

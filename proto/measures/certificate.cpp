@@ -51,7 +51,7 @@ Measure certificate_measure() {
       "that nothing can be proven.";
   row.run = run;
   row.schema = certificate_schema;
-  row.cost = [](const MeasureSize& size, const Arguments&) {
+  row.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{8e-6 * size.n * size.sets, 400 * size.n};
   };
   return row;

@@ -52,9 +52,12 @@ Measure differential_measure() {
   row.parameters = differential_parameters();
   row.run = run;
   row.schema = schema;
-  row.cost = [](const MeasureSize& size, const Arguments& arguments) {
+  row.cost = [](const SetsSize& size, const Arguments& arguments) {
     const Cost one = differential_cost(size.n, differential_options(arguments));
     return Cost{size.sets * one.seconds, (1 + size.sets / 16) * one.bytes};
+  };
+  row.check = [](const Domain&, double, const Arguments& arguments) {
+    require_options(differential_options(arguments));
   };
   row.needs_torus = true;
   return row;

@@ -36,8 +36,8 @@ Measure discrepancy_measure() {
     return means_to_json<Discrepancy>(fields, all);
   };
   row.schema = [] { return numbers_schema<Discrepancy>(fields); };
-  row.cost = [](const MeasureSize& size, const Arguments&) {
-    return Cost{6e-6 * size.n * size.sets, 280 * size.n};
+  row.cost = [](const SetsSize& size, const Arguments&) {
+    return Cost{6e-6 * size.n * size.sets, 440 * size.n};
   };
   row.needs_torus = true;
   return row;

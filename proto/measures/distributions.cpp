@@ -73,7 +73,7 @@ Measure distributions_measure() {
     for (const Field& field : fields) add_property(schema, field.name, histogram_schema(field.description));
     return schema;
   };
-  row.cost = [](const MeasureSize& size, const Arguments&) {
+  row.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{1e-5 * size.n * size.sets, 500 * size.n};
   };
   return row;

@@ -48,9 +48,10 @@ Measure local_measure() {
     add_property(schema, "by_set", {{"type", "array"}, {"items", set_schema()}});
     return schema;
   };
-  row.cost = [](const MeasureSize& size, const Arguments&) {
-    return Cost{3e-5 * size.n * size.sets, 400 * size.n + 300 * size.n * size.sets};
+  row.cost = [](const SetsSize& size, const Arguments&) {
+    return Cost{3e-5 * size.n * size.sets, 400 * size.n};
   };
+  row.kept_bytes = [](const SetsSize& size, const Arguments&) { return 330 * size.n * size.sets; };
   return row;
 }
 

@@ -9,20 +9,13 @@
 
 #include "core/control.h"
 #include "core/point_set.h"
-#include "core/registry.h"
+#include "core/registry_measures.h"
 
 namespace wellspaced {
 
 struct Certificate;
 class Sizing;
 struct Spacing;
-
-/// What a measure's cost depends on.
-struct MeasureSize {
-  double n = 0;  ///< points a set
-  double sets = 1;
-  double aspect = 1;  ///< longer over shorter side of the domain
-};
 
 /// What a measure looks at.
 struct MeasureInput {
@@ -35,9 +28,13 @@ struct Measure : Method {
   /// Averages over the sets.
   /// Errors: with the parameter's pointer for a bad one; without a pointer for what the points are to blame.
   nlohmann::ordered_json (*run)(const MeasureInput&, const Arguments&, const Control&) = nullptr;
-  nlohmann::ordered_json (*schema)() = nullptr;                  ///< JSON Schema of what `run` returns
-  Cost (*cost)(const MeasureSize&, const Arguments&) = nullptr;  ///< of all sets
-  bool needs_torus = false;                                      ///< it means nothing on another domain
+  nlohmann::ordered_json (*schema)() = nullptr;               ///< JSON Schema of what `run` returns
+  Cost (*cost)(const SetsSize&, const Arguments&) = nullptr;  ///< of all sets, but for what is kept:
+  /// The bytes of what `run` returns, and of its text; nothing to speak of if there is no function.
+  double (*kept_bytes)(const SetsSize&, const Arguments&) = nullptr;
+  /// What can be refused of the parameters before the work; same errors as `run`.
+  void (*check)(const Domain&, double n, const Arguments&) = nullptr;
+  bool needs_torus = false;  ///< it means nothing on another domain
 };
 
 /// All measures. One row each in measures.cpp.

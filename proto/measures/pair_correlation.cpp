@@ -54,7 +54,7 @@ Measure pair_correlation_measure() {
   row.parameters = pair_correlation_parameters();
   row.run = run;
   row.schema = schema;
-  row.cost = [](const MeasureSize& size, const Arguments& arguments) {
+  row.cost = [](const SetsSize& size, const Arguments& arguments) {
     const PairCorrelationOptions options = pair_correlation_options(arguments);
     const double pairs = 1.9 * options.reach * options.reach * size.n;
     return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};

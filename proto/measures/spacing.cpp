@@ -77,7 +77,7 @@ Measure spacing_measure() {
   row.reference = "Ebeida et al. 2013, sections 2 and 6";
   row.run = run;
   row.schema = spacing_schema;
-  row.cost = [](const MeasureSize& size, const Arguments&) {
+  row.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{8e-6 * size.n * size.sets, 400 * size.n};
   };
   return row;

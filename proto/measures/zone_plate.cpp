@@ -63,9 +63,12 @@ Measure zone_plate_measure() {
   row.parameters = zone_plate_parameters();
   row.run = run;
   row.schema = schema;
-  row.cost = [](const MeasureSize& size, const Arguments& arguments) {
-    const Cost one = zone_plate_cost(size.n, size.aspect, zone_plate_options(arguments));
+  row.cost = [](const SetsSize& size, const Arguments& arguments) {
+    const Cost one = zone_plate_cost(size.n, size.height_over_width, zone_plate_options(arguments));
     return Cost{size.sets * one.seconds, one.bytes};
+  };
+  row.check = [](const Domain& domain, double n, const Arguments& arguments) {
+    require_options(zone_plate_options(arguments), domain, static_cast<std::size_t>(n));
   };
   row.needs_torus = true;
   return row;

@@ -1,7 +1,6 @@
 #include "server/handlers/answer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <charconv>
 #include <chrono>
@@ -64,30 +63,10 @@ void read_preferences(std::string_view text, Preference& preference) {
   }
 }
 
-/// A place among the few threads that may draw at a time, so that the others answer whatever else is asked.
-class DrawingPlace {
- public:
-  explicit DrawingPlace(Context& context) : drawing_(context.drawing) {
-    const unsigned most = std::max(1u, context.config.http.threads / 2);
-    if (++drawing_ <= most) return;
-    --drawing_;
-    throw Error(ErrorCode::overloaded,
-                "the server is drawing as many pictures as it may at a time; ask again in a moment");
-  }
-  ~DrawingPlace() { --drawing_; }
-  DrawingPlace(const DrawingPlace&) = delete;
-  DrawingPlace& operator=(const DrawingPlace&) = delete;
-
- private:
-  std::atomic<unsigned>& drawing_;
-};
-
 Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
   const Limits& limits = context.config.limits;
   Control control(context.config.threads, &context.pictures);
-  std::optional<DrawingPlace> place;
   if (is_picture(wanted.format)) {
-    place.emplace(context);
     // Estimates hold for ordinary point sets.
     const std::chrono::duration<double> most(2 * std::min(limits.picture_seconds, 1e6));
     control.set_deadline(Control::Clock::now() + std::chrono::duration_cast<Control::Clock::duration>(most),

@@ -9,6 +9,7 @@
 #include "proto/fields.h"
 #include "proto/result.h"
 #include "server/handlers/answer.h"
+#include "server/handlers/drawing_place.h"
 #include "server/handlers/waiting.h"
 #include "server/http/range.h"
 #include "server/jobs/job_id.h"
@@ -142,6 +143,34 @@ std::string entity_tag(const Job& job, const Wanted& wanted) {
          std::string(version()) + "\"";
 }
 
+http::Response kept_result(Context& context, const Job& job, const Wanted& wanted,
+                           const http::Request& request) {
+  http::Response response = result_response(context, job, wanted, request.id);
+  if (response.status != 200) return response;
+  response.set("ETag", entity_tag(job, wanted)).set("Cache-Control", "private").set("Vary", "Accept");
+  return http::apply_range(request, http::apply_conditions(request, std::move(response)));
+}
+
+/// The picture of a kept result, once there is a place to draw it.
+class PictureAnswer final : public http::Pending {
+ public:
+  PictureAnswer(Context& context, Job job, Wanted wanted, http::Request request)
+      : context_(context), job_(std::move(job)), wanted_(std::move(wanted)), request_(std::move(request)) {}
+
+  bool ready() override {
+    if (!place_) place_ = DrawingPlace::take(context_);
+    return place_ != nullptr || context_.draining;
+  }
+  http::Response finish() override { return kept_result(context_, job_, wanted_, request_); }
+
+ private:
+  Context& context_;
+  Job job_;
+  Wanted wanted_;
+  http::Request request_;
+  std::unique_ptr<DrawingPlace> place_;
+};
+
 bool read_purge(const http::Request& request) {
   for (const auto& [name, value] : request.query)
     if (name != "purge")
@@ -189,11 +218,12 @@ http::Response get_result(Context& context, const http::Request& request) {
     if (name != "format" && !is_picture_parameter(name))
       throw Error(ErrorCode::invalid_parameters,
                   "unknown parameter; known here are: format, picture, picture.NAME", pointer_token(name));
-  const Wanted wanted = read_wanted(request, job.operation);
-  http::Response response = result_response(context, job, wanted, request.id);
-  if (response.status != 200) return response;
-  response.set("ETag", entity_tag(job, wanted)).set("Cache-Control", "private").set("Vary", "Accept");
-  return http::apply_range(request, http::apply_conditions(request, std::move(response)));
+  Wanted wanted = read_wanted(request, job.operation);
+  if (!is_picture(wanted.format)) return kept_result(context, job, wanted, request);
+  if (const auto place = DrawingPlace::take(context)) return kept_result(context, job, wanted, request);
+  http::Response response;
+  response.pending = std::make_unique<PictureAnswer>(context, job, std::move(wanted), request);
+  return response;
 }
 
 http::Response get_events(Context& context, const http::Request& request) {

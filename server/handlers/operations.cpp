@@ -6,6 +6,7 @@
 #include "proto/execute.h"
 #include "proto/picture.h"
 #include "server/handlers/answer.h"
+#include "server/handlers/drawing_place.h"
 #include "server/handlers/waiting.h"
 #include "server/problem.h"
 
@@ -59,6 +60,14 @@ class JobAnswer final : public JobWait {
         wanted_(std::move(wanted)),
         attached_(attached) {}
 
+  /// A picture also waits for its place; the answer of a server that stops needs none.
+  bool ready() override {
+    if (!JobWait::ready()) return false;
+    if (!is_picture(wanted_.format) || place_ || context_.draining) return true;
+    place_ = DrawingPlace::take(context_);
+    return place_ != nullptr;
+  }
+
   http::Response finish() override {
     const Job job = find();
     if (!is_terminal(job.status)) return accepted_response(job);
@@ -74,6 +83,7 @@ class JobAnswer final : public JobWait {
   std::string request_id_;
   Wanted wanted_;
   bool attached_;
+  std::unique_ptr<DrawingPlace> place_;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -248,6 +250,40 @@ TEST(RoundTicks, AreRoundAndWithinTheRange) {
   EXPECT_EQ(texts(0, 2000, 4), "0 500 1000 1500 2000 ");
   EXPECT_EQ(texts(0.1, 1.1, 1), "1 ");
   EXPECT_EQ(texts(1e-5, 2.1e-5, 2), "0.00001 0.00002 ");
+}
+
+TEST(RoundTicks, EndWhateverTheRange) {
+  for (const auto& [low, high] : {std::pair{0.0, 0.0},
+                                  {5.0, 5.0},
+                                  {1e300, 1e300},
+                                  {1e16, 1e16 + 2},
+                                  {-1e99, 1e99},
+                                  {1.0, std::nextafter(1.0, 2.0)},
+                                  {0.0, 5e-324}}) {
+    const std::vector<Tick> ticks = round_ticks(low, high, 5);
+    EXPECT_LE(ticks.size(), 100u);
+    for (const Tick& tick : ticks) {
+      EXPECT_TRUE(std::isfinite(tick.value));
+      EXPECT_LT(tick.text.size(), 30u) << tick.text;
+      for (const char c : tick.text) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20) << tick.text;
+    }
+  }
+}
+
+TEST(Chart, DrawsOnlyWhatIsNearItsFrame) {
+  Chart chart;
+  chart.x = {0, 1, "x"};
+  chart.y = {0, 1, "y"};
+  Series far;
+  far.dash_px = 2;
+  for (int i = 0; i < 20'000; ++i) {
+    far.x.push_back(i);
+    far.y.push_back(i % 2 == 0 ? 1e99 : -1e99);
+  }
+  chart.series = {far};
+  const Drawing drawn = draw(chart);
+  EXPECT_LT(to_svg(drawn).size(), 20'000u);
+  EXPECT_NO_THROW(to_png(drawn, 2));
 }
 
 TEST(NumberLabel, IsShort) {

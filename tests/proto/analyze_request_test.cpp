@@ -178,5 +178,40 @@ TEST(RequireMeaning, RefusesSpectraWhereNothingRepeats) {
   }
 }
 
+TEST(ReadRequest, RefusesParametersOfMeasuresBeforeTheWork) {
+  const std::string wide = R"({"points":{"generate":{"count":10,"domain":{"height":9}}},"measures":[)";
+  expect_refusals({
+      {"analyze", wide + R"("spacing",{"measure":"differential","pixels":100}]})", invalid,
+       "/measures/1/pixels", "odd"},
+      {"analyze", wide + R"({"measure":"differential","sigma":2}]})", invalid, "/measures/0/sigma", "reach"},
+      {"analyze", wide + R"({"measure":"zone-plate","columns":4000}]})", invalid, "/measures/0/columns",
+       "2^24"},
+  });
+}
+
+TEST(ExpectedCost, AddsUpWhatIsKeptOfEachGroup) {
+  const auto bytes = [](int groups) {
+    std::string list;
+    for (int g = 0; g < groups; ++g)
+      list += std::string(g == 0 ? "" : ",") + R"({"points":{"generate":{"count":1000}}})";
+    return expected_cost(read("analyze", R"({"compare":[)" + list +
+                                             R"(],"measures":[{"measure":"periodogram","range":10}]})"))
+        .bytes;
+  };
+  const double power = 2 * 317.0 * 317;  // numbers of one
+  EXPECT_GE(bytes(11) - bytes(1), 10 * 50 * power);
+  const auto blamed = [](const std::string& first, const std::string& second) {
+    try {
+      read("analyze", R"({"compare":[{"points":{"generate":{"count":)" + first +
+                          R"(}}},{"points":{"generate":{"count":)" + second + "}}}]}");
+    } catch (const Error& error) {
+      return error.where();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(blamed("9000000", "2000000"), "/compare/0/points");
+  EXPECT_EQ(blamed("2000000", "9000000"), "/compare/1/points");
+}
+
 }  // namespace
 }  // namespace wellspaced

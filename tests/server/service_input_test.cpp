@@ -105,6 +105,8 @@ const std::vector<BadInput> bad_inputs = {
      "/sizing/to"},
     {"UnknownSizing", "/v1/analyze", R"({"points":{"generate":{"count":10}},"sizing":{"type":"wavy"}})", 422,
      invalid, "/sizing/type"},
+    {"MeasuresThatAreNoList", "/v1/analyze?measures.x=1", "0.1,0.2\n0.3,0.7\n0.4,0.5\n", 422, invalid,
+     "/measures", "text/csv"},
     {"SeedsOfPoints", "/v1/analyze", R"({"points":[[0,0],[0.5,0],[0,0.5]],"seeds":2})", 422, invalid,
      "/seeds"},
     {"CountText", "/v1/generate", R"({"count":"10"})", 422, invalid, "/count"},

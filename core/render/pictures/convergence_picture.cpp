@@ -50,8 +50,8 @@ std::pair<double, double> limits_of(const std::vector<Series>& all, double last_
         low = std::min(low, s.y[i]);
         high = std::max(high, s.y[i]);
       }
-  if (!(low < high)) return {low - 0.05, low + 0.05};
-  const double room = 0.06 * (high - low);
+  if (low > high) return {0, 1};  // nothing finite
+  const double room = std::max(0.06 * (high - low), 0.05 * std::max(std::abs(low), 1e-3));
   return {low - room, high + room};
 }
 
@@ -104,7 +104,7 @@ Picture convergence_picture() {
   last.fallback = "where the longest ends";
   picture.parameters = {last, size_parameter(width_px, least_chart_px)};
   picture.make = make;
-  picture.cost = [](const PictureSize&, const Arguments&) { return Cost{0.01, 1e6}; };
+  picture.cost = [](const SetsSize&, const Arguments&) { return Cost{0.01, 1e6}; };
   picture.needs_history = true;
   return picture;
 }

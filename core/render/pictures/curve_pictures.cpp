@@ -180,7 +180,7 @@ Picture pair_correlation_picture() {
   picture.parameters = pair_correlation_parameters();
   picture.parameters.push_back(size_parameter(correlation_px, least_chart_px));
   picture.make = make_pair_correlation;
-  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+  picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     const PairCorrelationOptions options = pair_correlation_options(arguments);
     const double pairs = 1.9 * options.reach * options.reach * size.n;
     return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
@@ -198,7 +198,7 @@ Picture distributions_picture() {
       "group.";
   picture.parameters = {size_parameter(histogram_px, least_chart_px)};
   picture.make = make_distributions;
-  picture.cost = [](const PictureSize& size, const Arguments&) {
+  picture.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{3e-6 * size.n * size.sets, 500 * size.n};
   };
   return picture;

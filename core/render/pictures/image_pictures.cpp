@@ -147,8 +147,11 @@ Picture zone_plate_picture() {
   picture.parameters = zone_plate_parameters();
   picture.parameters.push_back(size_parameter(plate_px));
   picture.make = make_zone_plate;
-  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
-    return zone_plate_cost(size.n, size.aspect, zone_plate_options(arguments));
+  picture.cost = [](const SetsSize& size, const Arguments& arguments) {
+    return zone_plate_cost(size.n, size.height_over_width, zone_plate_options(arguments));
+  };
+  picture.check = [](const Domain& domain, double n, const Arguments& arguments) {
+    require_options(zone_plate_options(arguments), domain, static_cast<std::size_t>(n));
   };
   picture.needs_torus = true;
   return picture;
@@ -165,9 +168,12 @@ Picture differential_picture() {
   picture.parameters = differential_parameters();
   picture.parameters.push_back(size_parameter(domain_px, least_chart_px));
   picture.make = make_differential;
-  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+  picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     const Cost one = differential_cost(size.n, differential_options(arguments));
     return Cost{size.sets * one.seconds, (1 + size.sets / 8) * one.bytes};
+  };
+  picture.check = [](const Domain&, double, const Arguments& arguments) {
+    require_options(differential_options(arguments));
   };
   picture.needs_torus = true;
   return picture;

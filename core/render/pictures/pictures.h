@@ -8,7 +8,7 @@
 #include "core/domain/sizing.h"
 #include "core/optimize/optimize.h"
 #include "core/point_set.h"
-#include "core/registry.h"
+#include "core/registry_measures.h"
 #include "core/render/drawing.h"
 
 namespace wellspaced {
@@ -21,20 +21,15 @@ struct PictureGroup {
   const Sizing* sizing = nullptr;  ///< that the sets were made for; may be missing
 };
 
-/// What a picture's cost depends on.
-struct PictureSize {
-  double n = 0;  ///< points a set
-  double sets = 1;
-  double aspect = 1;  ///< longer over shorter side of the domain
-};
-
 /// One kind of picture.
 struct Picture : Method {
-  /// Several groups are drawn side by side, or as several curves. Errors: with the parameter's pointer for a
-  /// bad one; those of the measure that is drawn; cancelled, deadline_exceeded. Determinism: the same bytes
-  /// on any number of threads.
+  /// Several groups are drawn side by side, or as several curves. The sets and the control must outlive what
+  /// is returned. Errors: with the parameter's pointer for a bad one; those of the measure that is drawn;
+  /// cancelled, deadline_exceeded. Determinism: the same bytes on any number of threads.
   Drawing (*make)(std::span<const PictureGroup>, const Arguments&, const Control&) = nullptr;
-  Cost (*cost)(const PictureSize&, const Arguments&) = nullptr;  ///< of one group, about
+  Cost (*cost)(const SetsSize&, const Arguments&) = nullptr;  ///< of one group, about
+  /// What can be refused of the parameters before the work; same errors as `make`.
+  void (*check)(const Domain&, double n, const Arguments&) = nullptr;
   bool draws_each_point = false;
   bool needs_torus = false;    ///< it means nothing on another domain
   bool needs_history = false;  ///< of an optimizer

@@ -29,7 +29,7 @@ Parameter size_parameter(double fallback_px, double least_px = 50);
 double size_px_of(const Arguments& arguments, double fallback_px);
 
 /// Of periodograms of all sets up to that range.
-Cost periodogram_cost(const PictureSize& size, double range);
+Cost periodogram_cost(const SetsSize& size, double range);
 
 /// Below that, the axes of a chart have no room for their names.
 inline constexpr double least_chart_px = 180;

@@ -241,7 +241,7 @@ Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arg
 
 }  // namespace
 
-Cost periodogram_cost(const PictureSize& size, double range) {
+Cost periodogram_cost(const SetsSize& size, double range) {
   const double k_max = k_max_of(size.n, size.aspect, range);
   if (!(k_max <= largest_k_max)) return {1e9, 1e30};
   const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
@@ -259,7 +259,7 @@ Picture overview_picture() {
       "latter averaged over the group's sets.";
   picture.parameters = {size_parameter(overview_px, least_chart_px)};
   picture.make = make_overview;
-  picture.cost = [](const PictureSize& size, const Arguments&) {
+  picture.cost = [](const SetsSize& size, const Arguments&) {
     const Cost curves = periodogram_cost(size, computed_range(size.n, size.aspect, curve_range)),
                image = periodogram_cost(size, image_range);
     return Cost{curves.seconds + image.seconds + 3e-5 * size.n, 2 * std::max(curves.bytes, image.bytes)};
@@ -276,7 +276,7 @@ Picture periodogram_picture() {
   picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
   picture.parameters = {range_parameter(image_range), size_parameter(image_px, least_chart_px)};
   picture.make = make_periodogram;
-  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+  picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     const Cost cost = periodogram_cost(size, range_of(arguments, image_range));
     return Cost{cost.seconds, 2 * cost.bytes};  // and the image
   };
@@ -291,7 +291,7 @@ Picture spectrum_picture() {
   picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
   picture.parameters = {range_parameter(curve_range), size_parameter(curves_px, least_chart_px)};
   picture.make = make_spectrum;
-  picture.cost = [](const PictureSize& size, const Arguments& arguments) {
+  picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return periodogram_cost(size, computed_range(size.n, size.aspect, range_of(arguments, curve_range)));
   };
   picture.needs_torus = true;
