@@ -1,5 +1,6 @@
 #include "proto/openapi.h"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 #include <string>
@@ -71,6 +72,17 @@ ordered_json parameter(const std::string& name, const std::string& in, const std
   return out;
 }
 
+/// Takes in what another picture means by a parameter of the same name.
+void widen(ordered_json& schema, const ordered_json& other) {
+  schema.erase("default");  // it depends on the picture
+  if (schema.value("description", "") != other.value("description", ""))
+    schema["description"] = schema.value("description", "") + "; or " + other.value("description", "");
+  if (schema.contains("minimum") && other.contains("minimum"))
+    schema["minimum"] = std::min(schema["minimum"].get<double>(), other["minimum"].get<double>());
+  if (schema.contains("maximum") && other.contains("maximum"))
+    schema["maximum"] = std::max(schema["maximum"].get<double>(), other["maximum"].get<double>());
+}
+
 /// Besides format and picture, the parameters of all pictures: picture.color, ...
 ordered_json format_parameters(std::string_view operation) {
   ordered_json names = ordered_json::array(), picture_names = ordered_json::array();
@@ -89,7 +101,7 @@ ordered_json format_parameters(std::string_view operation) {
       if (!schemas.contains(name))
         schemas[name] = schema;
       else if (schemas[name] != schema)
-        schemas[name].erase("default");  // it depends on the picture
+        widen(schemas[name], schema);
     }
   }
   for (const auto& [name, schema] : schemas.items()) {

@@ -60,9 +60,11 @@ class Subject {
     for (const SetsSize& group : groups_) n = std::max(n, group.n);
     return n;
   }
-  double total() const {
+  /// Points of all sets that the picture looks at.
+  double total(const Picture& picture) const {
+    if (picture.needs_history) return 0;
     double sum = 0;
-    for (const SetsSize& group : groups_) sum += group.n * group.sets;
+    for (const SetsSize& group : groups_) sum += group.n * (picture.averages ? group.sets : 1);
     return sum;
   }
   Cost cost(const PictureCall& call) const {
@@ -103,7 +105,7 @@ void require_size(const Subject& subject, const PictureCall& call, const Limits&
   const auto drawn = static_cast<double>(limits.picture_points);
   if (call.picture->draws_each_point)
     require_points(subject.largest(), drawn, "ask for the points and draw a part of them");
-  require_points(subject.total(), without_points_factor * drawn, "ask for fewer points or sets");
+  require_points(subject.total(*call.picture), without_points_factor * drawn, "ask for fewer points or sets");
   const Cost cost = subject.cost(call);
   const auto memory = static_cast<double>(limits.memory_bytes);
   if (cost.seconds <= limits.picture_seconds && cost.bytes <= memory) return;
@@ -157,7 +159,7 @@ std::vector<SweepRecord> history_from(const ordered_json& summary) {
   return history;
 }
 
-/// Of the first set of a group.
+/// Of the first optimized set of a group.
 std::vector<SweepRecord> history_of(const Result& result, std::size_t group) {
   if (result.operation != "analyze") return history_from(result.summary);
   const ordered_json& summary =

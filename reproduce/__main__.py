@@ -61,8 +61,8 @@ def filled_sections(context):
 def lead(short):
     text = report.paragraph(
         f"{paper.AUTHORS}: \u201c{paper.TITLE}\u201d, {paper.JOURNAL}. Its results on the torus, made again with "
-        "the service wellspaced through its public HTTP API. Every number on this page was computed for it, but "
-        "those in columns headed \u201cthe paper\u201d and in tables that say they compare with other programs. "
+        "the service wellspaced through its public HTTP API. Every number of this service was "
+        "computed for this page; what the paper or others say stands with where it is from. "
         "The paper's text could not be obtained by this project: what it says is known from its abstract and from "
         "this project's notes, which quote it, and wherever it is not known this page says "
         f"\u201c{paper.NOT_AVAILABLE}\u201d.", "lead")

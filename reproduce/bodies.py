@@ -4,7 +4,7 @@ import json
 import shlex
 
 MOST_GROUPS = 16
-LONGEST_LABEL_BYTES = 60
+LONGEST_LABEL = 60
 
 
 def generated(method, count, seed=None, domain=None):
@@ -31,8 +31,8 @@ def torus(width, height):
 
 def group(label, points, seeds=None):
     """One of several that are compared: `seeds` sets of consecutive seeds, or one set."""
-    if len(label.encode()) > LONGEST_LABEL_BYTES:
-        raise ValueError(f"a label has at most {LONGEST_LABEL_BYTES} bytes: {label}")
+    if len(label) > LONGEST_LABEL:
+        raise ValueError(f"a label has at most {LONGEST_LABEL} characters: {label}")
     fields = {"label": label, "points": points}
     if seeds is not None:
         fields["seeds"] = seeds

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 TITLE = "Improving Spatial Coverage while Preserving the Blue Noise of Point Sets"
 AUTHORS = "Ebeida, Awad, Ge, Mahmoud, Mitchell, Knupp, Wei"
-JOURNAL = "Computer-Aided Design, 2014"
+JOURNAL = "Computer-Aided Design 46, 2014 (online 2013)"
 
 ABSTRACT = "abstract"
 NOTE_P = "project notes, quoting the paper"

@@ -8,7 +8,7 @@ namespace wellspaced {
 ///
 /// Errors of the constructor: invalid_parameters at /width or /height for sides that are not finite, not
 /// within [min_side, max_side], or with a ratio above max_aspect.
-class Torus : public Domain {
+class Torus final : public Domain {
  public:
   static constexpr double min_side = 1e-6, max_side = 1e6, max_aspect = 1000;
 

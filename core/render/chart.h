@@ -60,7 +60,8 @@ Drawing legend_of(const std::vector<Series>& series, double width_px);
 /// With the legend above, if there is any.
 Drawing with_legend(Drawing drawing, const std::vector<Series>& series);
 
-/// A range from 0, or from the smallest value, to somewhat above the largest finite one, cut at `most`.
+/// Where an axis from 0 may end: somewhat above the largest finite value and at `least`, a round number; not
+/// above `most`.
 double round_high(const std::vector<Series>& series, double least, double most);
 
 /// "0.7071": significant digits, without trailing zeros; "−" for minus.

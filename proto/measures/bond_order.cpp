@@ -7,8 +7,6 @@
 namespace wellspaced {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr NumberField<BondOrder> fields[] = {
     {"psi6_global", &BondOrder::psi6_global,
      "|mean over all points of psi6_i|, psi6_i = mean over Delaunay neighbors of exp(6 i theta): whether "

@@ -1,6 +1,5 @@
 #include "core/analyze/differential.h"
 
-#include <cmath>
 #include <vector>
 
 #include "core/domain/sizing.h"

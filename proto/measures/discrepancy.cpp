@@ -6,8 +6,6 @@
 namespace wellspaced {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr NumberField<Discrepancy> fields[] = {
     {"star", &Discrepancy::star,
      "star discrepancy: the largest |share of the points in a box - its share of the area| of all boxes from "

@@ -1,6 +1,5 @@
 #include "core/analyze/pair_correlation.h"
 
-#include <cmath>
 #include <vector>
 
 #include "core/registry_measures.h"

@@ -60,9 +60,12 @@ def row(group):
 
 def why(local):
     history = local["optimized"][0]["history"]
+    if len(history) < 2 or None in (history[0][1], history[1][1]):
+        return "opt-beta-local had nothing to do here."
     before, first = history[0][1], history[1][1]
-    return (f"the first sweep of opt-beta-local takes the global beta from {number(before)} to "
-            f"{number(first)}{': it rises' if first > before else ''}, though every single move lowers the mover's "
-            "own beta_i: a point moves for itself, and its neighbors' distances are not looked at. Damping lessens "
-            f"it. This project's trials saw the same: {paper.TRIAL_FIRST_SWEEP}. Whether the paper's curves show "
-            f"it is {paper.NOT_AVAILABLE}.")
+    text = f"the first sweep of opt-beta-local takes the global beta from {number(before)} to {number(first)}. "
+    if first > before:
+        text += ("It rises, though every single move lowers the mover's own beta_i: a point moves for itself, and "
+                 f"its neighbors' distances are not looked at. This project's trials saw it too: "
+                 f"{paper.TRIAL_FIRST_SWEEP}. ")
+    return text + f"Whether the paper's curves show the like is {paper.NOT_AVAILABLE}."

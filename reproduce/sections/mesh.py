@@ -79,7 +79,7 @@ def why(mps, local, own):
             "the same target opt-beta-local leaves other numbers of six-neighbored points than opt-beta "
             f"({'; '.join(texts) or 'no target was reached by all sets'}): it moves all points in "
             "every sweep, as far as that serves each, opt-beta only those near a violation and no farther than its "
-            "radii ask; and opt-beta-local ends further below its target.")
+            "radii ask.")
 
 
 def findings(section, mps):

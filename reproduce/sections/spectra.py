@@ -60,7 +60,9 @@ def why(local, own):
         return "opt-beta-local reached none of its targets with all sets."
     pairs = [(a, next(b for b in own.groups if b["label"][-4:] == a["label"][-4:])) for a in local.groups]
     less = [b["label"][-4:] for a, b in pairs if b["spectrum"]["oscillations"] < a["spectrum"]["oscillations"]]
-    return (f"at the same target opt-beta's spectra oscillate less than opt-beta-local's at {len(less)} of "
-            f"{len(pairs)} targets{' (' + ', '.join(less) + ')' if less else ''}: points move no farther than its "
-            "radii ask, and what is left alone stays random. opt-beta-local goes past its target, so at the same "
-            "target its sets are also further along.")
+    text = f"at the same target opt-beta's spectra oscillate less than opt-beta-local's at {len(less)} of {len(pairs)}"
+    text += f" targets{' (' + ', '.join(less) + ')' if less else ''}"
+    if len(less) > len(pairs) / 2:
+        text += ": points move no farther than its radii ask, and what is left alone stays random"
+    past = sum(a["spacing"]["beta"] < b["spacing"]["beta"] for a, b in pairs)
+    return text + (f". At {past} of them opt-beta-local went further past the target." if past else ".")

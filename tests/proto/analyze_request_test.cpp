@@ -1,4 +1,6 @@
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -161,9 +163,19 @@ TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
   });
 }
 
-class Disk final : public Torus {
+/// A domain that repeats along no axis.
+class Disk final : public Domain {
  public:
   std::string_view type() const override { return "disk"; }
+  int dimension() const override { return 2; }
+  double area() const override { return 3; }
+  Box box() const override { return {{-1, -1, 0}, {2, 2, 0}, {}}; }
+  double distance(Vec3 p, Vec3 q) const override { return norm(p - q); }
+  std::optional<std::string> why_outside(Vec3) const override { return std::nullopt; }
+  Vec3 random_point(Rng&) const override { return {}; }
+  Vec3 step(Vec3 p, Vec2) const override { return p; }
+  void bisectors(Vec3, Vec2, std::span<const Neighbor>, std::span<HalfPlane>) const override {}
+  double chart_to_distance(double u) const override { return u; }
 };
 
 TEST(RequireMeaning, RefusesSpectraWhereNothingRepeats) {

@@ -135,9 +135,10 @@ TEST(RequireDrawable, CountsAllSetsTogether) {
   const auto request = [](int sets) {
     return read("analyze", R"({"points":{"generate":{"count":100}},"seeds":)" + std::to_string(sets) + "}");
   };
-  const PictureCall points = read_picture("points", "");
-  EXPECT_NO_THROW(require_drawable(request(10), points, limits));
-  expect_refused([&] { require_drawable(request(11), points, limits); }, ErrorCode::too_large, "/picture",
+  const PictureCall averaged = read_picture("distributions", ""), first = read_picture("zone-plate", "");
+  EXPECT_NO_THROW(require_drawable(request(11), first, limits));
+  EXPECT_NO_THROW(require_drawable(request(10), averaged, limits));
+  expect_refused([&] { require_drawable(request(11), averaged, limits); }, ErrorCode::too_large, "/picture",
                  "fewer points or sets");
 }
 

@@ -106,6 +106,7 @@ Picture convergence_picture() {
   picture.make = make;
   picture.cost = [](const SetsSize&, const Arguments&) { return Cost{0.01, 1e6}; };
   picture.needs_history = true;
+  picture.averages = false;
   return picture;
 }
 

@@ -147,6 +147,7 @@ Picture zone_plate_picture() {
   picture.parameters = zone_plate_parameters();
   picture.parameters.push_back(size_parameter(plate_px));
   picture.make = make_zone_plate;
+  picture.averages = false;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return zone_plate_cost(size.n, size.height_over_width, zone_plate_options(arguments));
   };

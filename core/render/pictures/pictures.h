@@ -31,6 +31,7 @@ struct Picture : Method {
   /// What can be refused of the parameters before the work; same errors as `make`.
   void (*check)(const Domain&, double n, const Arguments&) = nullptr;
   bool draws_each_point = false;
+  bool averages = true;        ///< over all sets of a group; else it shows the first one
   bool needs_torus = false;    ///< it means nothing on another domain
   bool needs_history = false;  ///< of an optimizer
 };

@@ -265,6 +265,7 @@ Picture row(const char* name, const char* title, const char* description) {
   picture.parameters = {color, size_parameter(alone_px)};
   picture.parameters.back().fallback = "900, several panels 420";
   picture.draws_each_point = true;
+  picture.averages = false;
   picture.cost = [](const SetsSize& size, const Arguments&) {
     const double panels = size.alone ? std::min<double>(most_panels, size.sets) : 1;
     return Cost{3e-5 * size.n * panels, 1000 * size.n * panels};
