@@ -229,13 +229,15 @@ class PngCanvas final : public Canvas {
       stroke(points.subspan(longest - 1), false, pen, opacity);
       return;
     }
-    with_pen(pen);
-    FT_Vector at = to_fixed(scale_ * points.front());
-    FT_Stroker_BeginSubPath(stroker_, &at, closed ? 0 : 1);
-    for (const Vec2 p : points.subspan(1)) {
-      at = to_fixed(scale_ * p);
-      FT_Stroker_LineTo(stroker_, &at);
+    line_.clear();
+    for (const Vec2 p : points) {
+      const FT_Vector at = to_fixed(scale_ * p);
+      if (line_.empty() || at.x != line_.back().x || at.y != line_.back().y) line_.push_back(at);
     }
+    if (line_.size() < 2) return;  // FreeType can't stroke what has no length
+    with_pen(pen);
+    FT_Stroker_BeginSubPath(stroker_, line_.data(), closed ? 0 : 1);
+    for (std::size_t i = 1; i < line_.size(); ++i) FT_Stroker_LineTo(stroker_, &line_[i]);
     FT_Stroker_EndSubPath(stroker_);
     fill_stroke(pen, opacity);
   }
@@ -292,6 +294,7 @@ class PngCanvas final : public Canvas {
   Image image_;
   Clip clip_{};
   Outline outline_;
+  std::vector<FT_Vector> line_;  ///< scratch
   Font font_;
   FT_Library library_ = nullptr;
   FT_Stroker stroker_ = nullptr;

@@ -125,6 +125,23 @@ TEST(PngCanvas, CoversTheAreaOfItsShapes) {
               40, 2);  // half of what a line would have
 }
 
+TEST(PngCanvas, DrawsLinesWithoutLengthAndDashesThatEndWithTheLine) {
+  const std::vector<std::vector<Vec2>> lines = {
+      {{5, 5}, {5, 5}}, {{5, 5}, {5, 5}, {5, 5}}, {{1, 5}, {1, 5}, {13, 5}, {13, 5}},
+      {{1, 1}, {3, 1}}, {{1, 1}, {5, 1}},         {{1, 3}, {1 + 1e-9, 3}}};
+  for (const double dash : {0.0, 2.0, 2.2, 7.0})
+    for (const auto& line : lines) {
+      const Paint paint{std::nullopt, Pen{{0, 0, 0}, 1.6, dash}};
+      EXPECT_EQ(png(20, 20, 1,
+                    [&](Canvas& c) {
+                      c.polyline(line, paint);
+                      c.polygon(line, paint);
+                    })
+                    .width,
+                20u);
+    }
+}
+
 TEST(PngCanvas, DrawsLongLinesWhole) {
   std::vector<Vec2> zigzag;
   for (int i = 0; i < 40'000; ++i) zigzag.push_back({i * 0.02, i % 2 == 0 ? 5.0 : 6.0});

@@ -99,6 +99,21 @@ TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
     }
 }
 
+TEST(DrawResult, DrawsAsManyGroupsAsThereMayBe) {
+  std::string groups;
+  for (int g = 0; g < 16; ++g)
+    groups += std::string(g == 0 ? "" : ",") + R"({"label":")" + std::string(60, 'W') +
+              R"(","points":{"optimize":{"points":{"generate":{"count":)" + std::to_string(20 + g) +
+              R"(}},"method":"cvt","max_sweeps":4}}})";
+  const Result result = run("analyze", R"({"compare":[)" + groups + "]}");
+  for (const Picture& picture : pictures()) {
+    SCOPED_TRACE(picture.name);
+    const PictureCall call = read_picture(picture.name, "/picture");
+    EXPECT_EQ(testing::why_malformed(to_svg(draw_result(result, call, {}, Control()))), "");
+    EXPECT_GT(testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5)).width, 50u);
+  }
+}
+
 TEST(RequireDrawable, RefusesConvergenceOfWhatWasNotOptimized) {
   const PictureCall convergence = read_picture("convergence", "/picture");
   const auto check = [&](const char* operation, const std::string& body) {
