@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/domain/torus.h"
 #include "core/error.h"
 #include "proto/arguments.h"
 #include "proto/fields.h"
@@ -124,7 +125,7 @@ void require_size(const Subject& subject, const PictureCall& call, const Limits&
 
 /// What is known of a picture of these points before the work.
 void require_possible(const PictureCall& call, const Domain& domain, double n) {
-  if (call.picture->needs_torus && domain.type() != "torus")
+  if (call.picture->needs_torus && !is_torus(domain))
     throw Error(ErrorCode::invalid_parameters,
                 call.picture->name + " means nothing on a " + std::string(domain.type()) +
                     "; ask for points or voronoi",

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/rng.h"
 #include "core/vec.h"
@@ -30,11 +31,46 @@ struct Box {
   std::array<bool, 3> periodic{};
 };
 
+/// Convex polygons in a chart, one after the other, each counter-clockwise.
+struct ChartPieces {
+  std::vector<Vec2> corners;
+  std::vector<std::size_t> ends;  ///< of each polygon in `corners`
+
+  void clear() {
+    corners.clear();
+    ends.clear();
+  }
+  void close() { ends.push_back(corners.size()); }  ///< the corners since the last one are a polygon
+  std::span<const Vec2> operator[](std::size_t k) const {
+    const std::size_t begin = k == 0 ? 0 : ends[k - 1];
+    return {corners.data() + begin, ends[k] - begin};
+  }
+};
+
+/// How a point may move: over the domain; along the boundary curve that it lies on; not at all, as corners.
+struct Freedom {
+  int dimensions = 2;
+  Vec2 along{};  ///< unit tangent of the curve, where dimensions == 1
+};
+
+/// A curve of the boundary between two corners, which are fixed, or a closed one without any.
+struct BoundaryCurve {
+  double length = 0;
+  bool closed = false;
+};
+
+/// A flat (on a sphere: spherical) triangle of a domain, counter-clockwise.
+using DomainTriangle = std::array<Vec3, 3>;
+
 /// Where points live. Everything that generators, optimizers and analyses need to know of a shape is asked
 /// here, so that each of them is written once.
 ///
 /// The tangent chart at p is a plane with origin p in which bisectors to near samples are straight lines and
-/// distance from p grows with |u|; `chart_to_distance` is that monotone map. Torus: the identity, exact.
+/// distance from p grows with |u|; `chart_to_distance` is that monotone map. Torus, box and polygon: the
+/// identity, exact. Sphere: gnomonic, exact. Surface mesh: geodesic polar coordinates, right to second order.
+///
+/// Domains with a boundary are closed. Points on it are told from the others by their coordinates alone: see
+/// `freedom`. They keep to their curve, and its corners stay.
 ///
 /// Thread safety: immutable after construction.
 class Domain {
@@ -44,7 +80,13 @@ class Domain {
   virtual std::string_view type() const = 0;  ///< its name in requests: "torus"
   virtual int dimension() const = 0;          ///< coordinates a point: 2 or 3
   virtual double area() const = 0;
+  virtual double boundary_length() const { return 0; }
+  virtual int euler_characteristic() const = 0;  ///< of a triangulation: vertices - edges + faces
   virtual Box box() const = 0;
+  /// The chart of every point is the plane that the domain lies in, moved there.
+  virtual bool is_flat() const { return true; }
+
+  /// Length of the shortest way; on planar domains the straight one, whatever lies between.
   virtual double distance(Vec3 p, Vec3 q) const = 0;
 
   /// Why the (finite) point p is not in the domain, for a person; nothing if it is.
@@ -53,16 +95,61 @@ class Domain {
   /// Uniform by area.
   virtual Vec3 random_point(Rng& rng) const = 0;
 
-  /// p moved by the tangent vector u (the exponential map); the result is in the domain.
+  /// How p, a point of the domain, may move.
+  virtual Freedom freedom(Vec3) const { return {}; }
+
+  /// As much of the move u of p as its freedom and the boundary let it make: a part of u for points inside,
+  /// that stay there; the part along its curve, up to the corners, for a point on the boundary.
+  virtual Vec2 possible(Vec3, Vec2 u) const { return u; }
+
+  /// p moved by the tangent vector u (the exponential map); the result is in the domain, and has the freedom
+  /// of p. Requires: u == possible(p, u), but for rounding.
   virtual Vec3 step(Vec3 p, Vec2 u) const = 0;
 
+  /// Turns offsets from base, as a search in ambient space found them, into what `bisectors` takes, and drops
+  /// neighbors that are farther than `reach` on the domain.
+  virtual void localize(Vec3, double, std::vector<Neighbor>&) const {}
+
   /// The bisectors between the candidate step(base, u) and its neighbors, in the candidate's chart.
-  /// Requires: out.size() == neighbors.size(); neighbor offsets relative to `base`.
+  /// Requires: out.size() == neighbors.size(); neighbors relative to `base`, localized.
   virtual void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
                          std::span<HalfPlane> out) const = 0;
 
   /// Distance on the domain of a chart vector of length u from the chart's origin.
   virtual double chart_to_distance(double u) const = 0;
+
+  /// Where the domain doesn't go on for `reach` around base in all directions: fills `out` with convex
+  /// polygons in the chart at base that don't overlap and that together are all of the domain within reach
+  /// (they may go on beyond), and returns true. False: it goes on.
+  virtual bool pieces(Vec3 base, double reach, ChartPieces& out) const {
+    (void)base, (void)reach, (void)out;
+    return false;
+  }
+
+  /// The curves that the boundary is made of.
+  virtual std::vector<BoundaryCurve> boundary() const { return {}; }
+  /// The point of a curve at that way along it, in [0, length]: both ends are the corners, bit for bit; all
+  /// others have one degree of freedom.
+  virtual Vec3 boundary_point(std::size_t curve, double along) const {
+    (void)curve, (void)along;
+    return {};
+  }
+
+  /// Triangles that are the domain together and overlap in edges only.
+  virtual std::vector<DomainTriangle> triangles() const = 0;
+  /// The middle of an edge of such a triangle, or of a part of one.
+  virtual Vec3 middle(Vec3 p, Vec3 q) const { return 0.5 * (p + q); }
+  /// Of such a triangle, or of a part of one.
+  virtual double area_of(const DomainTriangle& triangle) const;
+  /// Uniform by area in such a triangle, or a part of one.
+  virtual Vec3 random_point_in(const DomainTriangle& triangle, Rng& rng) const;
 };
+
+/// `bisectors` of a flat domain.
+void flat_bisectors(Vec2 u, std::span<const Neighbor> neighbors, std::span<HalfPlane> out);
+
+/// Spacing of the triangular lattice of n points on a domain; on one with a boundary, where points on it have
+/// half a cell inside, of n points that cover it up to there: n = 2 A / (sqrt(3) d^2) + L / (2 d).
+double hexagonal_spacing(const Domain& domain, std::size_t n);
 
 }  // namespace wellspaced

@@ -16,6 +16,15 @@ void require_side(double side, const char* where) {
 
 }  // namespace
 
+void require_sides(double width, double height) {
+  require_side(width, "/width");
+  require_side(height, "/height");
+  if (std::max(width, height) > Torus::max_aspect * std::min(width, height))
+    throw Error(ErrorCode::invalid_parameters,
+                "the longer side is more than 1000 times the shorter one; use a less elongated torus",
+                width < height ? "/height" : "/width");
+}
+
 double wrap(double x, double period) {
   if (x >= 0 && x < period) return x;
   x = std::fmod(x, period);  // exact
@@ -29,14 +38,7 @@ double wrap_difference(double d, double period) {
   return d;
 }
 
-Torus::Torus(double width, double height) : width_(width), height_(height) {
-  require_side(width, "/width");
-  require_side(height, "/height");
-  if (std::max(width, height) > max_aspect * std::min(width, height))
-    throw Error(ErrorCode::invalid_parameters,
-                "the longer side is more than 1000 times the shorter one; use a less elongated torus",
-                width < height ? "/height" : "/width");
-}
+Torus::Torus(double width, double height) : width_(width), height_(height) { require_sides(width, height); }
 
 double Torus::distance(Vec3 p, Vec3 q) const {
   return norm(Vec2{wrap_difference(q.x - p.x, width_), wrap_difference(q.y - p.y, height_)});
@@ -61,10 +63,14 @@ Vec3 Torus::random_point(Rng& rng) const {
 Vec3 Torus::step(Vec3 p, Vec2 u) const { return {wrap(p.x + u.x, width_), wrap(p.y + u.y, height_), 0}; }
 
 void Torus::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors, std::span<HalfPlane> out) const {
-  for (std::size_t k = 0; k < neighbors.size(); ++k) {
-    const Vec2 d{neighbors[k].offset.x - u.x, neighbors[k].offset.y - u.y};
-    out[k] = {d, norm2(d) / 2};
-  }
+  flat_bisectors(u, neighbors, out);
+}
+
+std::vector<DomainTriangle> Torus::triangles() const { return halves_of_rectangle(width_, height_); }
+
+std::vector<DomainTriangle> halves_of_rectangle(double width, double height) {
+  const Vec3 a{0, 0, 0}, b{width, 0, 0}, c{width, height, 0}, d{0, height, 0};
+  return {{a, b, c}, {a, c, d}};
 }
 
 }  // namespace wellspaced

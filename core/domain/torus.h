@@ -20,6 +20,7 @@ class Torus final : public Domain {
   std::string_view type() const override { return "torus"; }
   int dimension() const override { return 2; }
   double area() const override { return width_ * height_; }
+  int euler_characteristic() const override { return 0; }
   Box box() const override { return {{0, 0, 0}, {width_, height_, 0}, {true, true, false}}; }
   double distance(Vec3 p, Vec3 q) const override;
   std::optional<std::string> why_outside(Vec3 p) const override;
@@ -28,10 +29,19 @@ class Torus final : public Domain {
   void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
                  std::span<HalfPlane> out) const override;
   double chart_to_distance(double u) const override { return u; }
+  std::vector<DomainTriangle> triangles() const override;
 
  private:
   double width_, height_;
 };
+
+inline bool is_torus(const Domain& domain) { return dynamic_cast<const Torus*>(&domain) != nullptr; }
+
+/// Errors: as of the constructor of Torus.
+void require_sides(double width, double height);
+
+/// The two triangles that a rectangle with a corner at the origin is made of.
+std::vector<DomainTriangle> halves_of_rectangle(double width, double height);
 
 /// x brought into [0, period); never equal to period, whatever rounding does.
 double wrap(double x, double period);

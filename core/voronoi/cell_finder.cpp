@@ -18,7 +18,7 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
       grid_(&grid),
       control_(&control),
       first_reach_(reach),
-      is_flat_(points.domain->type() == "torus") {
+      is_flat_(points.domain->is_flat()) {
   // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can
   // matter.
   farthest_reach_ = 2 * norm(points.domain->box().size);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/domain/torus.h"
 #include "core/error.h"
 #include "proto/measures/rows.h"
 
@@ -25,7 +26,7 @@ const Measure* find_measure(std::string_view name) {
 }
 
 void require_meaning(const Measure& measure, const Domain& domain, const std::string& where) {
-  if (!measure.needs_torus || domain.type() == "torus") return;
+  if (!measure.needs_torus || is_torus(domain)) return;
   throw Error(
       ErrorCode::invalid_parameters,
       measure.name + " means nothing on a " + std::string(domain.type()) +
