@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/domain/box_domain.h"
 #include "proto/request.h"
 #include "tests/support/refusals.h"
 
