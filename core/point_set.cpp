@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/domain/torus.h"
 #include "core/error.h"
 #include "core/sort.h"
 #include "core/voronoi/grid_order.h"
@@ -86,7 +87,7 @@ std::optional<bool> repeats_within_cells(const PointSet& points, const Control& 
 }
 
 std::optional<Repetition> find_repetition(const PointSet& points, const Control& control) {
-  if (points.domain->dimension() == 2 && repeats_within_cells(points, control) == false) return std::nullopt;
+  if (is_torus(*points.domain) && repeats_within_cells(points, control) == false) return std::nullopt;
   return first_repetition(points, control);
 }
 
@@ -103,6 +104,8 @@ PointSet points_to_set(std::shared_ptr<const Domain> domain, std::size_t n, cons
   }
   return points;
 }
+
+bool is_plain_torus(const PointSet& points) { return points.sizing == nullptr && is_torus(*points.domain); }
 
 double hexagonal_spacing(double area, std::size_t n) {
   return std::sqrt(2 * area / (std::sqrt(3.0) * static_cast<double>(n)));

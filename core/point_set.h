@@ -10,12 +10,16 @@
 
 namespace wellspaced {
 
+class Sizing;
+
 /// Samples on a domain, in an order that means something: optimizers keep it, generators give row by row.
 ///
 /// Shapes: `coordinates` holds domain->dimension() doubles a point, row-major.
 struct PointSet {
   std::shared_ptr<const Domain> domain;
   std::vector<double> coordinates;
+  std::shared_ptr<const Sizing> sizing =
+      nullptr;  ///< the radii that are wanted where; none: the same all over
 
   std::size_t size() const {
     return coordinates.empty() ? 0 : coordinates.size() / static_cast<std::size_t>(domain->dimension());
@@ -38,6 +42,9 @@ struct PointSet {
     if (domain->dimension() == 3) coordinates.push_back(p.z);
   }
 };
+
+/// Whether the points lie on a torus and none is wanted denser anywhere: what the fastest ways are for.
+bool is_plain_torus(const PointSet& points);
 
 /// n points that are all still to be set. Errors: cancelled, deadline_exceeded.
 PointSet points_to_set(std::shared_ptr<const Domain> domain, std::size_t n, const Control& control);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/large_vector.h"
 #include "core/math.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/stars.h"
 
 namespace wellspaced {
@@ -114,6 +115,11 @@ Spacing measure_spacing(const PointSet& points, const Control& control) {
 }
 
 GlobalRatio measure_ratio(const PointSet& points, const Control& control) {
+  if (!is_plain_torus(points)) {
+    const MovingSet set(points, control);
+    const MeshRadii radii = set.measure(control);
+    return {radii.shortest * set.spacing(), radii.outermost * set.spacing()};
+  }
   std::vector<GlobalRatio> locals(points.size());
   visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
     const StarMeasure m = measure_star(i, spokes);

@@ -142,6 +142,24 @@ Vec3 BoxDomain::boundary_point(std::size_t curve, double along) const {
   }
 }
 
+std::optional<Vec3> BoxDomain::boundary_point_at(Vec3 p) const {
+  constexpr double tolerance = 1e-12;
+  double c[2] = {p.x, p.y};
+  bool found = false;
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (periodic_[a]) continue;
+    for (const double side : {0.0, size_[a]}) {
+      if (std::fabs(c[a] - side) > tolerance * size_[a]) continue;
+      c[a] = side;
+      found = true;
+    }
+  }
+  if (!found) return std::nullopt;
+  for (std::size_t a = 0; a < 2; ++a)
+    if (periodic_[a]) c[a] = wrap(c[a], size_[a]);
+  return Vec3{c[0], c[1], 0};
+}
+
 std::vector<DomainTriangle> BoxDomain::triangles() const { return halves_of_rectangle(size_[0], size_[1]); }
 
 }  // namespace wellspaced

@@ -8,6 +8,18 @@ namespace wellspaced {
 
 double Domain::area_of(const DomainTriangle& t) const { return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0])); }
 
+PolygonMoments Domain::moments(std::span<const Vec2> polygon) const {
+  PolygonMoments sum;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k], b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    const double twice = cross(a, b);  // of the triangle between the origin and the edge
+    sum.area += twice / 2;
+    sum.first = sum.first + (twice / 6) * (a + b);
+    sum.second += twice / 12 * (norm2(a) + dot(a, b) + norm2(b));
+  }
+  return sum;
+}
+
 Vec3 Domain::random_point_in(const DomainTriangle& t, Rng& rng) const {
   double a = rng.uniform(), b = rng.uniform();
   if (a + b > 1) {  // the other half of the parallelogram

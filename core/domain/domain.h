@@ -41,7 +41,7 @@ struct ChartPieces {
     ends.clear();
   }
   void close() { ends.push_back(corners.size()); }  ///< the corners since the last one are a polygon
-  std::span<const Vec2> operator[](std::size_t k) const {
+  std::span<Vec2> operator[](std::size_t k) {
     const std::size_t begin = k == 0 ? 0 : ends[k - 1];
     return {corners.data() + begin, ends[k] - begin};
   }
@@ -61,6 +61,20 @@ struct BoundaryCurve {
 
 /// A flat (on a sphere: spherical) triangle of a domain, counter-clockwise.
 using DomainTriangle = std::array<Vec3, 3>;
+
+/// Integrals over a polygon in a chart: of 1, of the way there from the origin, and of its square.
+struct PolygonMoments {
+  double area = 0;
+  Vec2 first;
+  double second = 0;
+
+  PolygonMoments& operator+=(const PolygonMoments& other) {
+    area += other.area;
+    first = first + other.first;
+    second += other.second;
+    return *this;
+  }
+};
 
 /// Where points live. Everything that generators, optimizers and analyses need to know of a shape is asked
 /// here, so that each of them is written once.
@@ -117,6 +131,14 @@ class Domain {
 
   /// Distance on the domain of a chart vector of length u from the chart's origin.
   virtual double chart_to_distance(double u) const = 0;
+  /// The other way round, for distances that the chart has room for; the greatest length it has for others.
+  virtual double distance_to_chart(double distance) const { return distance; }
+
+  /// The tangent vector at base that leads straight to a neighbor, localized, as long as the way is.
+  virtual Vec2 way_to(Vec3, const Neighbor& neighbor) const { return {neighbor.offset.x, neighbor.offset.y}; }
+
+  /// Of a polygon in a chart, counter-clockwise; on the domain, not in the chart.
+  virtual PolygonMoments moments(std::span<const Vec2> polygon) const;
 
   /// Where the domain doesn't go on for `reach` around base in all directions: fills `out` with convex
   /// polygons in the chart at base that don't overlap and that together are all of the domain within reach
@@ -134,6 +156,10 @@ class Domain {
     (void)curve, (void)along;
     return {};
   }
+
+  /// The point of the boundary that is nearest to p, a place on it to within rounding: free along its curve,
+  /// or a corner. Nothing where p is not on it.
+  virtual std::optional<Vec3> boundary_point_at(Vec3) const { return {}; }
 
   /// Triangles that are the domain together and overlap in edges only.
   virtual std::vector<DomainTriangle> triangles() const = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Sizing {
 
   virtual std::string_view type() const = 0;  ///< its name in requests: "constant"
   virtual double at(Vec3 p) const = 0;        ///< r(p), domain lengths. Requires: p is in the domain
+  virtual double least() const = 0;           ///< no r(p) is below this
+  virtual double most() const = 0;            ///< nor above this
   virtual double lipschitz() const = 0;       ///< the least L with |r(p) - r(q)| <= L |p - q|; 0 if constant
 };
 
@@ -32,6 +35,8 @@ class ConstantSizing final : public Sizing {
 
   std::string_view type() const override { return "constant"; }
   double at(Vec3) const override { return radius_; }
+  double least() const override { return radius_; }
+  double most() const override { return radius_; }
   double lipschitz() const override { return 0; }
 
  private:
@@ -57,6 +62,8 @@ class LinearSizing final : public Sizing {
 
   std::string_view type() const override { return "linear"; }
   double at(Vec3 p) const override;
+  double least() const override { return std::min(options_.from, options_.to); }
+  double most() const override { return std::max(options_.from, options_.to); }
   double lipschitz() const override;
 
  private:

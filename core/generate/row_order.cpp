@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,21 @@ void bring_into_rows(PointSet& points, std::size_t sorted, double radius, const 
   }
   for (; next != late.end(); ++next) merged.push_back(points[next->second]);
   points.coordinates = std::move(merged.coordinates);
+}
+
+void sort_into_rows(PointSet& points, double radius, const Control& control) {
+  const Box box = points.domain->box();
+  const double side = radius / std::sqrt(2.0);
+  std::vector<std::tuple<double, double, double, std::size_t>> keys(points.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Vec3 p = points[i] - box.low;
+    keys[i] = {std::floor(p.z / side), std::floor(p.y / side), std::floor(p.x / side), i};
+  }
+  sort(keys.begin(), keys.end(), control, std::less<>());
+  PointSet sorted{points.domain, {}};
+  sorted.coordinates.reserve(points.coordinates.size());
+  for (const auto& key : keys) sorted.push_back(points[std::get<3>(key)]);
+  points.coordinates = std::move(sorted.coordinates);
 }
 
 }  // namespace wellspaced

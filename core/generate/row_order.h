@@ -18,4 +18,8 @@ std::int64_t background_cells(double length, double radius);
 /// unsorted ones.
 void bring_into_rows(PointSet& points, std::size_t sorted, double radius, const Control& control);
 
+/// The same on any domain, for points in any order: in space, layer by layer of the grid.
+/// Errors: cancelled, deadline_exceeded. Cost: O(n log n).
+void sort_into_rows(PointSet& points, double radius, const Control& control);
+
 }  // namespace wellspaced

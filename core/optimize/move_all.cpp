@@ -37,6 +37,16 @@ double move_all(StarMesh& mesh, std::span<const Vec2> moves, const PointSet& inp
   return 0;
 }
 
+double move_all(MovingSet& set, std::span<const Vec2> moves, const PointSet&, const Control& control) {
+  constexpr std::size_t between_checks = 4096;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (i % between_checks == 0) control.check();
+    const Vec2 move = set.domain().possible(set[i], set.unit(i) * moves[i]);
+    if (move != Vec2{}) set.move_to(i, set.domain().step(set[i], move));
+  }
+  return 1;
+}
+
 double longest(std::span<const Vec2> moves) {
   double longest2 = 0;
   for (const Vec2 move : moves) longest2 = std::max(longest2, norm2(move));

@@ -5,6 +5,7 @@
 #include "core/control.h"
 #include "core/point_set.h"
 #include "core/vec.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -17,6 +18,9 @@ namespace wellspaced {
 /// that was made: 1 but for such a set, 0 if even a 64th is too much.
 /// Errors: cancelled, deadline_exceeded. Cost: 0.1 us a point; 1 us where triangles turn over.
 double move_all(StarMesh& mesh, std::span<const Vec2> moves, const PointSet& input, const Control& control);
+
+/// The same on any domain, as far as each point's freedom and the boundary allow. Returns 1.
+double move_all(MovingSet& set, std::span<const Vec2> moves, const PointSet& input, const Control& control);
 
 /// Length of the longest move.
 double longest(std::span<const Vec2> moves);

@@ -5,18 +5,21 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
 #include "core/optimize/calm.h"
+#include "core/optimize/cell_sweep.h"
 #include "core/optimize/move_all.h"
 #include "core/optimize/opt_beta_local.h"
 #include "core/optimize/opt_beta_targets.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/optimize/ripening.h"
 #include "core/rng.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -52,10 +55,28 @@ bool is_recorded(int sweep, std::size_t n) {
   return sweep == 1 || sweep == 8 || (sweep >= 64 && is_power_of_two(sweep));
 }
 
+/// Marks what still violates the targets though nothing is marked. How many edges were flipped.
+std::size_t confirm(StarMesh& mesh, const PushPull&, const Control& control) {
+  return mesh.legalize_all(control);
+}
+
+std::size_t confirm(MovingSet& set, const PushPull& targets, const Control& control) {
+  const MeshRadii radii = set.measure(control);
+  if (radii.shortest < targets.r_f || radii.outermost > targets.r_c) set.mark_all();
+  return 0;
+}
+
+/// On a StarMesh or, for domains that it can't hold, a MovingSet.
+template <class State>
 class Descent {
  public:
-  Descent(StarMesh mesh, const PointSet& input, const OptBetaOptions& options, Control& control)
-      : input_(input), options_(options), control_(control), mesh_(std::move(mesh)), best_(mesh_.places()) {
+  template <class... From>
+  Descent(std::tuple<From...> from, const PointSet& input, const OptBetaOptions& options, Control& control)
+      : input_(input),
+        options_(options),
+        control_(control),
+        mesh_(std::make_from_tuple<State>(std::move(from))),
+        best_(mesh_.places()) {
     constexpr double cheap = 1e5;  // visits in all that nobody notices
     budget_ = static_cast<double>(allowed_visits(options)) * static_cast<double>(mesh_.size());
     if (!options.max_visits) budget_ = std::max(budget_, cheap);
@@ -85,7 +106,7 @@ class Descent {
     constexpr double flips_a_point = 20, visits_a_point = 200;
     const auto n = static_cast<double>(mesh_.size());
     if (options_.beta < surely_reached) {
-      const StarMesh::Snapshot start = mesh_.snapshot();
+      const typename State::Snapshot start = mesh_.snapshot();
       const double boldly = std::max(options_.beta, often_reached);
       const bool clean = relax(opt_beta_targets(boldly, options_.randomness),
                                {visits_a_point * n, flips_a_point * n, false, 100});
@@ -147,7 +168,7 @@ class Descent {
       targets.look_across = sweep > allowance.look_across_after;
       const std::size_t moves = sweep_once(targets);
       if (!mesh_.any_marked()) {
-        flips_ += static_cast<double>(mesh_.legalize_all(control_));
+        flips_ += static_cast<double>(confirm(mesh_, targets, control_));
         if (!mesh_.any_marked()) return true;
       }
       if (is_recorded(sweep, mesh_.size()))
@@ -170,7 +191,7 @@ class Descent {
         {{1.3, 1.7}, {1.2, 1.6}, {1.3, 1.5}, {1.15, 1.4}, {1.4, 1.5}, {1.2, 1.9}, {1.05, 1.3}}};
     constexpr double largest_step = .004, smallest_step = 5e-4, flips_a_point = 20;
     const auto n = static_cast<double>(mesh_.size());
-    StarMesh::Snapshot start = mesh_.snapshot();
+    typename State::Snapshot start = mesh_.snapshot();
     Ripening ripening;
     double step = largest_step;
     std::size_t choice = 0;
@@ -227,7 +248,7 @@ class Descent {
   }
 
   OptimizeResult result() {
-    for (std::size_t i = 0; i < best_.size(); ++i) mesh_.move_to(i, best_[i]);
+    mesh_.put(best_);
     OptimizeResult result{mesh_.points(input_, control_), false, sweeps_, std::move(history_),
                           visits_ / static_cast<double>(mesh_.size())};
     // What the mesh says of its places is right for the points to within this, but for points in a line.
@@ -249,8 +270,8 @@ class Descent {
   const PointSet& input_;
   const OptBetaOptions& options_;
   Control& control_;
-  StarMesh mesh_;
-  LargeVector<FixedPoint> best_;  // stars are not needed to tell the points
+  State mesh_;
+  typename State::Places best_;  // stars are not needed to tell the points
   double best_beta_ = std::numeric_limits<double>::infinity();
   double visits_ = 0, flips_ = 0, budget_ = 0;
   int sweeps_ = 0;
@@ -305,13 +326,17 @@ OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Co
   const int most_sweeps = allowed_visits(options);
   require_options(options);
   require_usable(input, control);
+  if (!is_plain_torus(input))
+    return Descent<MovingSet>(std::tie(input, std::as_const(control)), input, options, control).run();
   if (StarMesh::why_too_small(*input.domain, input.size()))
     return by_local_ratios(input, options, most_sweeps, control);
-  if (auto mesh = try_mesh(input, control)) return Descent(std::move(*mesh), input, options, control).run();
+  if (auto mesh = try_mesh(input, control))
+    return Descent<StarMesh>(std::forward_as_tuple(std::move(*mesh)), input, options, control).run();
   OptimizeResult evened = by_local_ratios(input, options, sweeps_to_even_out, control);
   while (evened.converged != true && evened.sweeps < most_sweeps) {
     if (auto mesh = try_mesh(evened.points, control)) {
-      OptimizeResult result = Descent(std::move(*mesh), evened.points, options, control).run();
+      OptimizeResult result =
+          Descent<StarMesh>(std::forward_as_tuple(std::move(*mesh)), evened.points, options, control).run();
       return one_after_the_other(std::move(evened), std::move(result));
     }
     const int more = std::min(evened.sweeps, most_sweeps - evened.sweeps);  // from the best state again

@@ -13,6 +13,15 @@ void Cell::reset(double reach) {
   outradius2_ = 2 * reach * reach;
 }
 
+void Cell::reset(std::span<const Vec2> polygon) {
+  corners_.clear();
+  outradius2_ = 0;
+  for (const Vec2 at : polygon) {
+    corners_.push_back({at, -1});
+    outradius2_ = std::max(outradius2_, norm2(at));
+  }
+}
+
 void Cell::clip(const HalfPlane& h, std::int32_t label) {
   const double n2 = norm2(h.n);
   if (h.c > 0 && h.c * h.c >= outradius2_ * n2) return;  // the bisector passes outside the farthest corner

@@ -18,9 +18,9 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
       grid_(&grid),
       control_(&control),
       first_reach_(reach),
-      is_flat_(points.domain->is_flat()) {
-  // No cell of a periodic box has an outradius above half its diagonal, so nothing farther than this can
-  // matter.
+      is_flat_(points.domain->is_flat()),
+      has_boundary_(points.domain->boundary_length() > 0) {
+  // No cell has an outradius above the diagonal of the domain's box, so nothing farther than this can matter.
   farthest_reach_ = 2 * norm(points.domain->box().size);
 }
 
@@ -34,6 +34,7 @@ void CellFinder::gather(double reach) {
   reach_ = reach;
   neighbors_.clear();
   grid_->gather(base_, self_, reach, neighbors_);
+  points_->domain->localize(base_, reach, neighbors_);
   has_own_images_ =
       std::any_of(neighbors_.begin(), neighbors_.end(), [this](const Neighbor& n) { return n.id == self_; });
   sorted_ = false;
@@ -61,21 +62,54 @@ void CellFinder::cut(Vec2 u) {
   for (std::size_t k = 0; k < neighbors_.size() && has_own_images_; ++k)
     if (neighbors_[k].id == self_)  // it moves along
       points_->domain->bisectors(base_, {}, {&neighbors_[k], 1}, {&half_planes_[k], 1});
-  cell_.reset(reach_);
+  cell_.reset(points_->domain->distance_to_chart(reach_));
   for (std::size_t k = 0; k < half_planes_.size(); ++k) {
     if (k % crowd == crowd - 1) control_->check();
     cell_.clip(half_planes_[k], static_cast<std::int32_t>(k));
   }
 }
 
+void CellFinder::clip_to_domain(Vec2 u) {
+  clipped_ = has_boundary_ && points_->domain->pieces(base_, reach_, pieces_);
+  if (!clipped_) return;
+  parts_.resize(pieces_.ends.size());
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    for (Vec2& corner : pieces_[k]) corner = corner - u;
+    parts_[k].reset(pieces_[k]);
+    for (const Cell::Corner& corner : cell_.corners())
+      if (corner.label >= 0)
+        parts_[k].clip(half_planes_[static_cast<std::size_t>(corner.label)], corner.label);
+  }
+}
+
+double CellFinder::outradius2() const {
+  double most = 0;
+  for (const Cell& part : parts()) most = std::max(most, part.outradius2());
+  return most;
+}
+
+PolygonMoments CellFinder::moments() {
+  PolygonMoments sum;
+  for (const Cell& part : parts()) {
+    polygon_.clear();
+    for (const Cell::Corner& corner : part.corners()) polygon_.push_back(corner.at);
+    sum += points_->domain->moments(polygon_);
+  }
+  return sum;
+}
+
+/// A part that reaches into the starting square's rim is farther away than half of it.
+bool CellFinder::is_complete(double moved) const {
+  if (!clipped_ && !cell_.closed()) return false;
+  return moved + 2 * points_->domain->chart_to_distance(std::sqrt(outradius2())) <= reach_;
+}
+
 const Cell& CellFinder::cell_at(Vec2 u) {
   const double moved = norm(u);
   for (;;) {
     cut(u);
-    const double outradius = std::sqrt(cell_.outradius2());
-    const bool complete =
-        cell_.closed() && moved + 2 * points_->domain->chart_to_distance(outradius) <= reach_;
-    if (complete || reach_ >= farthest_reach_ + moved) return cell_;
+    clip_to_domain(u);
+    if (is_complete(moved) || reach_ >= farthest_reach_ + moved) return cell_;
     gather(std::min(1.5 * reach_ + moved, farthest_reach_ + moved));
   }
 }
@@ -98,7 +132,9 @@ std::optional<CellFinder::Radii> CellFinder::radii_by_star(Vec2 u) {
   const auto squares = star_.squares_at(u);
   if (!squares) return std::nullopt;
   const Radii radii{std::sqrt(squares->nearest2), std::sqrt(squares->outradius2)};
-  if (norm(u) + 2 * radii.r_c > reach_) return std::nullopt;
+  const double moved = norm(u);
+  if (moved + 2 * radii.r_c > reach_) return std::nullopt;
+  if (has_boundary_ && points_->domain->pieces(base_, moved + radii.r_c, pieces_)) return std::nullopt;
   return radii;
 }
 
@@ -113,7 +149,7 @@ CellFinder::Radii CellFinder::radii_by_clipping(Vec2 u) {
   }
   const Domain& domain = *points_->domain;
   return {2 * domain.chart_to_distance(std::sqrt(std::max(0.0, nearest2))),
-          domain.chart_to_distance(std::sqrt(cell_.outradius2()))};
+          domain.chart_to_distance(std::sqrt(outradius2()))};
 }
 
 }  // namespace wellspaced

@@ -17,7 +17,8 @@ namespace wellspaced {
 /// Answers the one local question of every optimizer: if sample i stood at step(x_i, u), what would its
 /// Voronoi cell be?
 ///
-/// Guarantees: the cell is that of the candidate's own Delaunay neighbors, found again for each candidate:
+/// Guarantees: distances are the domain's; on a bounded one, r_c is that of the part of the cell inside. The
+/// cell is that of the candidate's own Delaunay neighbors, found again for each candidate:
 /// samples are gathered until everything within twice the cell's outradius is in hand. Images of the
 /// candidate itself move along with it. Radii are right to 1e-12 where samples are spread out; what was asked
 /// before changes them by rounding only.
@@ -40,8 +41,17 @@ class CellFinder {
   };
   Radii radii_at(Vec2 u);
 
-  /// The cell itself; labels are indices into neighbors(). Valid until the next call.
+  /// The cell itself, as if the domain went on all around; labels are indices into neighbors(). Valid until
+  /// the next call.
   const Cell& cell_at(Vec2 u);
+  /// What of the cell lies in the domain, as of cell_at: convex parts, some of them empty, whose edges with
+  /// negative labels are the domain's boundary or lie between two parts; the cell where nothing bounds it.
+  std::span<const Cell> parts() const {
+    return clipped_ ? std::span<const Cell>(parts_) : std::span(&cell_, 1);
+  }
+  /// Of what parts() are together: farthest corner's distance in the chart, squared; integrals.
+  double outradius2() const;
+  PolygonMoments moments();
   /// Samples around the loaded one, nearest first, as of cell_at.
   std::span<const Neighbor> neighbors() const { return neighbors_; }
 
@@ -51,6 +61,8 @@ class CellFinder {
   void gather(double reach);
   void sort_neighbors();
   void cut(Vec2 u);
+  void clip_to_domain(Vec2 u);
+  bool is_complete(double moved) const;
   void load_star();
   std::optional<Radii> radii_by_star(Vec2 u);
   Radii radii_by_clipping(Vec2 u);
@@ -64,9 +76,13 @@ class CellFinder {
   std::vector<Neighbor> neighbors_;
   std::vector<HalfPlane> half_planes_;
   Cell cell_;
+  ChartPieces pieces_;
+  std::vector<Cell> parts_;
+  std::vector<Vec2> polygon_;
+  bool clipped_ = false;
   CandidateStar star_;
   StarUse star_use_ = StarUse::not_loaded;
-  bool is_flat_, sorted_ = false, has_own_images_ = false;
+  bool is_flat_, has_boundary_, sorted_ = false, has_own_images_ = false;
 };
 
 }  // namespace wellspaced

@@ -11,15 +11,16 @@ struct NeighborGrid::Window {
   double reach2;
 };
 
-NeighborGrid::NeighborGrid(const PointSet& points, double cell) : points_(&points) {
+NeighborGrid::NeighborGrid(const PointSet& points, double cell, std::size_t expected) : points_(&points) {
   const Box box = points.domain->box();
   const double low[3] = {box.low.x, box.low.y, box.low.z};
   const double size[3] = {box.size.x, box.size.y, box.size.z};
   // More than a few cells a sample only costs memory: a thin box may ask for that.
-  const double most = std::max(64.0, 4.0 * static_cast<double>(points.size()));
+  const double most = std::max(64.0, 4.0 * static_cast<double>(expected));
   double wanted = 1;
   for (double s : size) wanted *= std::max(1.0, s / cell);
-  if (wanted > most) cell *= std::sqrt(wanted / most);
+  if (wanted > most)
+    cell *= points.domain->dimension() == 3 ? std::cbrt(wanted / most) : std::sqrt(wanted / most);
 
   std::size_t cells = 1;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -20,7 +20,9 @@ class NeighborGrid {
  public:
   /// Cells of about `cell` on a side. Requires: points are in their domain; cell > 0; points outlives the
   /// grid.
-  NeighborGrid(const PointSet& points, double cell);
+  NeighborGrid(const PointSet& points, double cell) : NeighborGrid(points, cell, points.size()) {}
+  /// The same for as many points as will have been added in the end, about.
+  NeighborGrid(const PointSet& points, double cell, std::size_t expected);
 
   /// Appends all images within `reach` of `base`, but not sample `self` itself (its images count: they bound
   /// its cell).

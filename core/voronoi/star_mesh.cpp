@@ -58,7 +58,7 @@ StarMesh::StarMesh(const PointSet& points, const Control& control) {
   scale_ = {width_ / turn / spacing_, height_ / turn / spacing_};
   steps_ = {1 / scale_.x, 1 / scale_.y};
   build_stars(points, control);
-  marks_.assign((size() + 63) / 64, 0);
+  marks_ = Marks(size());
 }
 
 // Cocircular neighbors have no one triangulation: points are nudged, by far less than any target's margin.
@@ -335,33 +335,6 @@ std::size_t StarMesh::legalize_all(const Control& control) {
   return rest.flips;
 }
 
-// ---- marks
-
-void StarMesh::mark_all() {
-  std::fill(marks_.begin(), marks_.end(), ~std::uint64_t{0});
-  if (size() % 64 != 0) marks_.back() = (std::uint64_t{1} << (size() % 64)) - 1;
-}
-
-std::size_t StarMesh::marked() const {
-  std::size_t count = 0;
-  for (const std::uint64_t word : marks_) count += static_cast<std::size_t>(std::popcount(word));
-  return count;
-}
-
-std::size_t StarMesh::take_marked(std::size_t from, std::size_t end) {
-  if (from >= end) return end;
-  std::size_t word = from / 64;
-  std::uint64_t bits = marks_[word] >> (from % 64) << (from % 64);
-  while (bits == 0) {
-    if (++word * 64 >= end) return end;
-    bits = marks_[word];
-  }
-  const auto found = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-  if (found >= end) return end;
-  marks_[word] &= ~(std::uint64_t{1} << (found % 64));
-  return found;
-}
-
 // ---- results
 
 PointSet StarMesh::points(const PointSet& input, const Control& control) const {
@@ -377,7 +350,7 @@ PointSet StarMesh::points(const PointSet& input, const Control& control) const {
 void StarMesh::restore(const Snapshot& snapshot) {
   at_ = snapshot.at;
   stars_ = snapshot.stars;
-  std::fill(marks_.begin(), marks_.end(), 0);
+  marks_.clear();
 }
 
 }  // namespace wellspaced

@@ -15,6 +15,8 @@
 #include "core/large_vector.h"
 #include "core/point_set.h"
 #include "core/voronoi/grid_order.h"
+#include "core/voronoi/marks.h"
+#include "core/voronoi/mesh_radii.h"
 #include "core/voronoi/star.h"
 
 namespace wellspaced {
@@ -23,11 +25,6 @@ namespace wellspaced {
 struct FixedPoint {
   std::uint32_t x = 0, y = 0;
   bool operator==(const FixedPoint&) const = default;
-};
-
-/// Smallest edge and largest circumradius of a triangulation, in units of d_hex.
-struct MeshRadii {
-  double shortest = 0, outermost = 0;
 };
 
 /// Consecutive places of a mesh, which may go on at the first one after the last one.
@@ -138,13 +135,14 @@ class StarMesh {
   bool is_delaunay_at(std::size_t i) const;
 
   /// Marks are one bit a point, for whoever sweeps over them.
-  void mark(std::size_t i) { marks_[i / 64] |= std::uint64_t{1} << (i % 64); }
-  void mark_all();
+  void mark(std::size_t i) { marks_.set(i); }
+  void mark_all() { marks_.set_all(); }
   bool any_marked() const { return marked() != 0; }
-  std::size_t marked() const;  ///< how many
+  std::size_t marked() const { return marks_.count(); }
   /// The first marked point in [from, end), its mark taken away; `end` if there is none.
-  std::size_t take_marked(std::size_t from, std::size_t end);
+  std::size_t take_marked(std::size_t from, std::size_t end) { return marks_.take(from, end); }
 
+  /// Smallest edge and largest circumradius, in units of d_hex.
   /// Errors: cancelled, deadline_exceeded.
   MeshRadii measure(const Control& control) const;
 
@@ -152,6 +150,10 @@ class StarMesh {
   /// coordinates back, bit for bit.
   /// Errors: cancelled, deadline_exceeded.
   PointSet points(const PointSet& input, const Control& control) const;
+
+  /// Moves all points at once; stars stay what they are.
+  using Places = LargeVector<FixedPoint>;
+  void put(const Places& places) { at_ = places; }
 
   /// Places and stars, to come back to.
   struct Snapshot {
@@ -184,7 +186,7 @@ class StarMesh {
   LargeVector<FixedPoint> at_;
   LargeVector<std::uint32_t> original_;
   LargeVector<Star> stars_;
-  std::vector<std::uint64_t> marks_;
+  Marks marks_;
   std::vector<Strip> strips_;
 };
 

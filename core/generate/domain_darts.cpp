@@ -1,0 +1,257 @@
+#include "core/generate/domain_darts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/generate/generate.h"
+#include "core/generate/hole_filler.h"
+#include "core/generate/row_order.h"
+
+namespace wellspaced {
+namespace {
+
+constexpr std::uint32_t nobody = ~0u;
+constexpr std::size_t between_checks = 512;
+
+/// A part of a curve, in lengths along it.
+struct Interval {
+  double begin, end;
+};
+
+/// How many points about; at least a few.
+double expected_points(const Domain& domain, const DiskRule& rule) {
+  const double r = rule.sizing == nullptr ? rule.scale : std::sqrt(rule.least() * rule.most());
+  return std::max(16.0, poisson_disk_constant * domain.area() / (r * r) + 0.7 * domain.boundary_length() / r);
+}
+
+class DomainDarts {
+ public:
+  DomainDarts(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng, Control& control)
+      : domain_(*domain),
+        rule_(rule),
+        rng_(rng),
+        control_(control),
+        expected_(expected_points(*domain, rule)),
+        points_{domain, {}},
+        grid_(points_, rule.least(), static_cast<std::size_t>(expected_)),
+        bounded_(domain->boundary_length() > 0) {}
+
+  PointSet run() {
+    if (bounded_) fill_boundary();
+    throw_everywhere();
+    fill_triangles();
+    HoleFiller(points_, grid_, rule_, control_).fill();
+    return std::move(points_);
+  }
+
+ private:
+  // ---- darts
+
+  /// Whether there is room for a point at p; it is then there.
+  bool take(Vec3 p) {
+    const double r = rule_.radius(p);
+    if (has_conflict(p, r)) return false;
+    add(p, r);
+    return true;
+  }
+
+  bool has_conflict(Vec3 p, double r) {
+    gather(p, rule_.reach(r) / rule_.coverage);
+    return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
+      return norm(domain_.way_to(p, q)) < rule_.distance(r, radii_[q.id]);
+    });
+  }
+
+  void gather(Vec3 p, double reach) {
+    neighbors_.clear();
+    grid_.gather(p, nobody, reach, neighbors_);
+    domain_.localize(p, reach, neighbors_);
+  }
+
+  void add(Vec3 p, double r) {
+    points_.push_back(p);
+    radii_.push_back(r);
+    grid_.add(static_cast<std::uint32_t>(points_.size() - 1));
+  }
+
+  bool is_inside(Vec3 p) const {
+    return !bounded_ || (!domain_.why_outside(p) && domain_.freedom(p).dimensions == 2);
+  }
+
+  // ---- the boundary
+
+  void fill_boundary() {
+    const std::vector<BoundaryCurve> curves = domain_.boundary();
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      if (!curves[c].closed) take_corner(domain_.boundary_point(c, 0));
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      if (c % between_checks == 0) control_.check();
+      fill_curve(c, curves[c]);
+    }
+  }
+
+  /// Curves of one loop follow each other, so that its corners are the beginnings of curves.
+  void take_corner(Vec3 p) { add(p, rule_.radius(p)); }
+
+  void fill_curve(std::size_t curve, const BoundaryCurve& shape) {
+    constexpr int deepest = 50;
+    std::vector<Interval> active = {{0, shape.length}};
+    for (int level = 0; level < deepest && !active.empty(); ++level) {
+      throw_at_curve(curve, active);
+      std::vector<Interval> halves;
+      for (const Interval& whole : active) {
+        if (is_covered(curve, whole)) continue;
+        const double middle = 0.5 * (whole.begin + whole.end);
+        for (const Interval& half : {Interval{whole.begin, middle}, Interval{middle, whole.end}})
+          if (!is_covered(curve, half)) halves.push_back(half);
+      }
+      active.swap(halves);
+    }
+  }
+
+  void throw_at_curve(std::size_t curve, const std::vector<Interval>& active) {
+    std::vector<double> sums;
+    double sum = 0;
+    for (const Interval& i : active) sums.push_back(sum += i.end - i.begin);
+    for (std::size_t dart = 0; dart < active.size(); ++dart) {
+      const double at = rng_.uniform() * sum;
+      const auto k =
+          std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), at) - sums.begin()),
+                   active.size() - 1);
+      const double along = active[k].end - (sums[k] - at);
+      const Vec3 p = domain_.boundary_point(curve, along);
+      if (domain_.freedom(p).dimensions == 1) take(p);
+    }
+  }
+
+  bool is_covered(std::size_t curve, const Interval& part) {
+    const Vec3 a = domain_.boundary_point(curve, part.begin), b = domain_.boundary_point(curve, part.end);
+    const Vec3 middle = domain_.boundary_point(curve, 0.5 * (part.begin + part.end));
+    const std::array<Vec3, 2> ends = {a, b};
+    return is_covered(ends, middle, part.end - part.begin);
+  }
+
+  // ---- inside
+
+  void throw_everywhere() {
+    const auto darts = static_cast<std::size_t>(2 * expected_);
+    for (std::size_t dart = 0; dart < darts; ++dart) {
+      if (dart % between_checks == 0) control_.check();
+      const Vec3 p = domain_.random_point(rng_);
+      if (is_inside(p)) take(p);
+    }
+  }
+
+  void fill_triangles() {
+    constexpr int rounds = 30;
+    std::vector<DomainTriangle> active;
+    for (const DomainTriangle& triangle : domain_.triangles()) split(triangle, active);
+    for (int round = 0; round < rounds && !active.empty(); ++round) {
+      throw_at_triangles(active);
+      std::vector<DomainTriangle> parts;
+      for (std::size_t k = 0; k < active.size(); ++k) {
+        if (k % between_checks == 0) control_.check();
+        if (is_covered(active[k])) continue;
+        for (const DomainTriangle& half : halves(active[k]))
+          for (const DomainTriangle& quarter : halves(half))
+            if (!is_covered(quarter)) parts.push_back(quarter);
+      }
+      active.swap(parts);
+      control_.report({std::min(0.95, 0.3 + 0.05 * round)});
+    }
+  }
+
+  /// Into parts no longer than a radius; without those that are covered.
+  void split(const DomainTriangle& whole, std::vector<DomainTriangle>& parts) {
+    std::vector<DomainTriangle> open = {whole};
+    for (std::size_t steps = 0; !open.empty(); ++steps) {
+      if (steps % between_checks == 0) control_.check();
+      const DomainTriangle triangle = open.back();
+      open.pop_back();
+      if (is_covered(triangle)) continue;
+      if (longest_edge(triangle) <= rule_.radius(triangle[0])) {
+        parts.push_back(triangle);
+        continue;
+      }
+      for (const DomainTriangle& half : halves(triangle)) open.push_back(half);
+    }
+  }
+
+  void throw_at_triangles(const std::vector<DomainTriangle>& active) {
+    std::vector<double> sums;
+    double sum = 0;
+    for (const DomainTriangle& triangle : active) sums.push_back(sum += domain_.area_of(triangle));
+    for (std::size_t dart = 0; dart < active.size(); ++dart) {
+      if (dart % between_checks == 0) control_.check();
+      const auto found = std::upper_bound(sums.begin(), sums.end(), rng_.uniform() * sum);
+      const auto k = std::min(static_cast<std::size_t>(found - sums.begin()), active.size() - 1);
+      const Vec3 p = domain_.random_point_in(active[k], rng_);
+      if (is_inside(p)) take(p);
+    }
+  }
+
+  static double longest_edge(const DomainTriangle& t) {
+    return std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
+  }
+
+  /// At the middle of the longest edge, so that parts don't become thin.
+  std::array<DomainTriangle, 2> halves(const DomainTriangle& t) const {
+    const double lengths[3] = {norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])};
+    const auto longest = static_cast<std::size_t>(std::max_element(lengths, lengths + 3) - lengths);
+    const Vec3 a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3], m = domain_.middle(a, b);
+    return {DomainTriangle{a, m, c}, DomainTriangle{m, b, c}};
+  }
+
+  bool is_covered(const DomainTriangle& t) {
+    const Vec3 center = domain_.middle(t[0], domain_.middle(t[1], t[2]));
+    return is_covered(t, center, longest_edge(t));
+  }
+
+  /// Whether one disk covers all of what lies between the corners. No place between them is farther than
+  /// size / sqrt(3) from the next one.
+  bool is_covered(std::span<const Vec3> corners, Vec3 center, double size) {
+    double least = rule_.radius(corners[0]);
+    for (const Vec3 corner : corners) least = std::min(least, rule_.radius(corner));
+    least -= rule_.lipschitz() * size / std::sqrt(3.0);
+    if (!(least > 0)) return false;
+    gather(center, rule_.reach(rule_.radius(center)));
+    std::array<Vec2, 3> ways;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      ways[k] = domain_.way_to(center, localized(center, corners[k], size));
+    return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
+      const Vec2 way = domain_.way_to(center, q);
+      const double radius = rule_.coverage * rule_.distance(least, radii_[q.id]), radius2 = radius * radius;
+      return std::all_of(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(corners.size()),
+                         [&](Vec2 corner) { return norm2(corner - way) < radius2; });
+    });
+  }
+
+  Neighbor localized(Vec3 center, Vec3 p, double size) {
+    single_.assign(1, {p - center, nobody});
+    domain_.localize(center, 2 * size, single_);
+    return single_.empty() ? Neighbor{{2 * size, 0, 0}, nobody} : single_.front();
+  }
+
+  const Domain& domain_;
+  const DiskRule& rule_;
+  Rng& rng_;
+  Control& control_;
+  double expected_;
+  PointSet points_;
+  std::vector<double> radii_;
+  NeighborGrid grid_;
+  bool bounded_;
+  std::vector<Neighbor> neighbors_, single_;
+};
+
+}  // namespace
+
+PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng,
+                          Control& control) {
+  PointSet points = DomainDarts(domain, rule, rng, control).run();
+  sort_into_rows(points, rule.least(), control);
+  return points;
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,105 @@
+#include "core/generate/hole_filler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+namespace wellspaced {
+namespace {
+
+constexpr std::uint32_t nobody = ~0u;
+
+}  // namespace
+
+bool HoleFiller::ComesLater::operator()(const Hole& a, const Hole& b) const {
+  return std::tuple(-a.depth, a.at.z, a.at.y, a.at.x) > std::tuple(-b.depth, b.at.z, b.at.y, b.at.x);
+}
+
+HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control)
+    : points_(points), grid_(grid), rule_(rule), control_(control), finder_(points, grid, 0, control) {}
+
+void HoleFiller::fill() {
+  const double enough = rule_.coverage * (1 + 1e-9);
+  collect(enough);
+  Hole hole{};
+  while (take_deepest(enough, hole)) insert(hole, enough);
+}
+
+double HoleFiller::fill_to(std::size_t count) {
+  collect(0);
+  Hole hole{};
+  while (points_.size() < count && take_deepest(0, hole)) insert(hole, 0);
+  return hole.depth;
+}
+
+void HoleFiller::collect(double deeper_than) {
+  heap_.clear();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (i % 256 == 0) control_.check();
+    look(static_cast<std::uint32_t>(i), deeper_than);
+  }
+}
+
+void HoleFiller::look(std::uint32_t i, double deeper_than) {
+  const Domain& domain = *points_.domain;
+  const double r = rule_.radius(points_[i]);
+  finder_.load(i, 2.5 * rule_.coverage * r);
+  finder_.cell_at({});
+  for (const Cell& part : finder_.parts()) {
+    const std::span<const Cell::Corner> corners = part.corners();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const bool is_rim = corners[k].label < 0 || corners[k == 0 ? corners.size() - 1 : k - 1].label < 0;
+      const double length = norm(corners[k].at);
+      if (!(length > 0)) continue;
+      const double distance = domain.chart_to_distance(length);
+      const Vec3 at = domain.step(points_[i], (distance / length) * corners[k].at);
+      const std::optional<Vec3> on_rim = is_rim ? domain.boundary_point_at(at) : std::nullopt;
+      if (is_rim && (!on_rim || domain.freedom(*on_rim).dimensions == 0)) continue;
+      const Vec3 place = on_rim.value_or(at);
+      const double depth = distance / rule_.distance(rule_.radius(place), r);
+      if (depth <= deeper_than) continue;
+      heap_.push_back({depth, place, i});
+      std::push_heap(heap_.begin(), heap_.end(), ComesLater());
+    }
+  }
+}
+
+/// As of now: points may have come since the hole was found.
+double HoleFiller::depth_of(Vec3 at) {
+  const Domain& domain = *points_.domain;
+  const double r = rule_.radius(at);
+  neighbors_.clear();
+  const double reach = 1.5 * rule_.reach(r);
+  grid_.gather(at, nobody, reach, neighbors_);
+  domain.localize(at, reach, neighbors_);
+  double depth = std::numeric_limits<double>::infinity();
+  for (const Neighbor& q : neighbors_)
+    depth = std::min(depth, norm(domain.way_to(at, q)) / rule_.distance(r, rule_.radius(points_[q.id])));
+  return depth;
+}
+
+bool HoleFiller::take_deepest(double deeper_than, Hole& deepest) {
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), ComesLater());
+    const Hole hole = heap_.back();
+    heap_.pop_back();
+    const double depth = depth_of(hole.at);
+    if (depth < hole.depth * (1 - 1e-9) || depth <= deeper_than)
+      continue;  // its new corners were found since
+    deepest = hole;
+    return true;
+  }
+  return false;
+}
+
+void HoleFiller::insert(const Hole& hole, double deeper_than) {
+  control_.check();
+  const auto added = static_cast<std::uint32_t>(points_.size());
+  points_.push_back(hole.at);
+  grid_.add(added);
+  look(added, deeper_than);  // all new corners are its own
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/control.h"
+#include "core/point_set.h"
+#include "core/voronoi/cell_finder.h"
+#include "core/voronoi/marks.h"
+#include "core/voronoi/mesh_radii.h"
+#include "core/voronoi/neighbors.h"
+
+namespace wellspaced {
+
+/// A point set on any domain, with or without a sizing function, whose points an optimizer moves, and whose
+/// cells it asks for. No triangulation is kept: each cell is cut anew from the neighbors that are found. What
+/// StarMesh is for the torus.
+///
+/// Lengths inside are in units of the spacing that the triangular lattice would have there: d_hex, or with a
+/// sizing function c r(x), taken at the sample, with the c that gives as many points. Two points are as far
+/// apart as the smaller of their units says.
+///
+/// Errors of the constructor: those of require_usable; degenerate_input for points so clustered that their
+/// neighborhoods can't be searched locally; cancelled, deadline_exceeded. Cost: O(n); 80 bytes a point.
+/// Determinism: a function of the points alone. Thread safety: const calls from many threads.
+class MovingSet {
+ public:
+  MovingSet(const PointSet& points, const Control& control);
+  MovingSet(const MovingSet&) = delete;
+  MovingSet& operator=(const MovingSet&) = delete;
+
+  std::size_t size() const { return points_.size(); }
+  const Domain& domain() const { return *points_.domain; }
+  Vec3 operator[](std::size_t i) const { return points_[i]; }
+  double spacing() const { return spacing_; }  ///< d_hex or c: the length of a unit where r(x) is 1
+  double unit(std::size_t i) const { return units_[i]; }
+  const Freedom& freedom(std::size_t i) const { return freedoms_[i]; }
+  /// Neither of the two can be moved.
+  bool both_fixed(std::size_t i, std::size_t j) const {
+    return freedoms_[i].dimensions == 0 && freedoms_[j].dimensions == 0;
+  }
+
+  /// One that sees the points as they are whenever it is asked. Requires: the set and control outlive it.
+  CellFinder finder(const Control& control) const { return {points_, grid_, 0, control}; }
+  /// How far a finder best looks at first around point i.
+  double reach(std::size_t i) const { return 2.3 * units_[i]; }
+
+  void move_to(std::size_t i, Vec3 to);
+
+  void mark(std::size_t i) { marks_.set(i); }
+  void mark_all() { marks_.set_all(); }
+  bool any_marked() const { return marks_.count() != 0; }
+  std::size_t marked() const { return marks_.count(); }
+  std::size_t take_marked(std::size_t from, std::size_t end) { return marks_.take(from, end); }
+
+  /// Smallest distance of two points that are not both fixed, and largest distance in a cell, each in its
+  /// units. Errors: cancelled, deadline_exceeded. Cost: about 0.8 us a point and thread.
+  MeshRadii measure(const Control& control) const;
+
+  /// Coordinates, to come back to.
+  using Places = std::vector<double>;
+  const Places& places() const { return points_.coordinates; }
+  void put(const Places& places);
+  using Snapshot = Places;
+  Snapshot snapshot() const { return places(); }
+  void restore(const Snapshot& snapshot) { put(snapshot); }
+
+  /// There is no triangulation to be kept.
+  std::size_t legalize_all(const Control&) { return 0; }
+
+  PointSet points(const PointSet&, const Control&) const { return points_; }
+
+ private:
+  void set_units(const Control& control);
+  MeshRadii radii_at(std::size_t i, CellFinder& cells) const;
+  void renew(std::size_t i);
+
+  PointSet points_;
+  NeighborGrid grid_;
+  double spacing_ = 0;
+  std::vector<double> units_;
+  std::vector<Freedom> freedoms_;
+  Marks marks_;
+};
+
+}  // namespace wellspaced
