@@ -14,15 +14,6 @@ namespace {
 
 constexpr double correlation_px = 560, histogram_px = 260;
 
-/// How a group's curve looks among others. The legend names it where there are several.
-Series series_for(const PictureGroup& group, std::size_t number, std::size_t groups) {
-  Series series;
-  if (groups > 1) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
-  series.color = color_of_class(number);
-  series.dash_px = dash_px_of_class(number);
-  return series;
-}
-
 PairCorrelation mean_correlation(const PictureGroup& group, const PairCorrelationOptions& options,
                                  const Control& control) {
   std::vector<PairCorrelation> all;
@@ -39,7 +30,7 @@ Drawing make_pair_correlation(std::span<const PictureGroup> groups, const Argume
   chart.height_px = 0.5 * width_px;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const PairCorrelation mean = mean_correlation(groups[g], options, control);
-    Series series = series_for(groups[g], g, groups.size());
+    Series series = curve_of(groups, g);
     for (std::size_t k = 0; k < mean.g.size(); ++k) {
       series.x.push_back(mean.middle(k));
       series.y.push_back(mean.g[k]);
@@ -157,8 +148,7 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
     const std::size_t together =
         quantity.whole ? 1 : bins_together(chart.x, (all[0].*quantity.histogram).width);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      chart.series.push_back(
-          steps_of(all[g].*quantity.histogram, together, series_for(groups[g], g, groups.size())));
+      chart.series.push_back(steps_of(all[g].*quantity.histogram, together, curve_of(groups, g)));
       if (groups.size() > most_filled) chart.series.back().fill = 0;
     }
     chart.y = {0, round_high(chart.series, 1e-6, 1e6), quantity.whole ? "share" : "density"};
@@ -181,9 +171,7 @@ Picture pair_correlation_picture() {
   picture.parameters.push_back(size_parameter(correlation_px, least_chart_px));
   picture.make = make_pair_correlation;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
-    const PairCorrelationOptions options = pair_correlation_options(arguments);
-    const double pairs = 1.9 * options.reach * options.reach * size.n;
-    return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
+    return pair_correlation_cost(size, pair_correlation_options(arguments));
   };
   picture.needs_torus = true;
   return picture;

@@ -1,6 +1,7 @@
 #include "core/render/pictures/pictures.h"
 
 #include <cmath>
+#include <string>
 
 #include "core/render/pictures/rows.h"
 
@@ -31,6 +32,15 @@ Parameter size_parameter(double fallback_px, double least_px) {
 
 double size_px_of(const Arguments& arguments, double fallback_px) {
   return argument(arguments, "size_px").value_or(fallback_px);
+}
+
+Series curve_of(std::span<const PictureGroup> groups, std::size_t number) {
+  Series series;
+  if (groups.size() > 1)
+    series.label = groups[number].label.empty() ? "set " + std::to_string(number + 1) : groups[number].label;
+  series.color = color_of_class(number);
+  series.dash_px = dash_px_of_class(number);
+  return series;
 }
 
 std::size_t columns_of(std::size_t panels) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "core/render/chart.h"
 #include "core/render/pictures/pictures.h"
 
 namespace wellspaced {
@@ -28,8 +30,9 @@ Drawing plain_points(const PointSet& points, double size_px, const Control& cont
 Parameter size_parameter(double fallback_px, double least_px = 50);
 double size_px_of(const Arguments& arguments, double fallback_px);
 
-/// Of periodograms of all sets up to that range.
-Cost periodogram_cost(const SetsSize& size, double range);
+/// How a group's curve looks among those of all groups, without its points. The legend names it where there
+/// are several.
+Series curve_of(std::span<const PictureGroup> groups, std::size_t number);
 
 /// Below that, the axes of a chart have no room for their names.
 inline constexpr double least_chart_px = 180;

@@ -4,6 +4,7 @@
 
 #include "core/analyze/spectrum.h"
 #include "core/math.h"
+#include "core/registry_measures.h"
 #include "core/render/chart.h"
 #include "core/render/pictures/rows.h"
 #include "core/render/raster.h"
@@ -15,18 +16,8 @@ constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px =
 /// What the oscillations need; not worth it for the largest sets.
 constexpr double full_range = 6.5, most_in_full = 3000;
 
-Parameter range_parameter(double fallback) {
-  Parameter p;
-  p.name = "range";
-  p.description = "largest frequency that is shown, in units of sqrt(n / A)";
-  p.minimum = 0.5;
-  p.maximum = 20;
-  p.fallback = number_label(fallback, 3);
-  return p;
-}
-
-double range_of(const Arguments& arguments, double fallback) {
-  return argument(arguments, "range").value_or(fallback);
+Parameter shown_range(double fallback) {
+  return range_parameter("largest frequency that is shown, in units of sqrt(n / A)", 0.5, 20, fallback);
 }
 
 std::string sets_text(std::size_t sets) { return std::to_string(sets) + (sets == 1 ? " set" : " sets"); }
@@ -241,14 +232,6 @@ Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arg
 
 }  // namespace
 
-Cost periodogram_cost(const SetsSize& size, double range) {
-  const double k_max = k_max_of(size.n, size.aspect, range);
-  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
-  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
-  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max),
-          static_cast<double>(bytes) + 16 * k_max * k_max};
-}
-
 Picture overview_picture() {
   Picture picture;
   picture.name = "overview";
@@ -274,7 +257,7 @@ Picture periodogram_picture() {
   picture.name = "periodogram";
   picture.title = "Periodogram";
   picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(image_range), size_parameter(image_px, least_chart_px)};
+  picture.parameters = {shown_range(image_range), size_parameter(image_px, least_chart_px)};
   picture.make = make_periodogram;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     const Cost cost = periodogram_cost(size, range_of(arguments, image_range));
@@ -289,7 +272,7 @@ Picture spectrum_picture() {
   picture.name = "spectrum";
   picture.title = "Radial mean power and anisotropy";
   picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(curve_range), size_parameter(curves_px, least_chart_px)};
+  picture.parameters = {shown_range(curve_range), size_parameter(curves_px, least_chart_px)};
   picture.make = make_spectrum;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return periodogram_cost(size, computed_range(size.n, size.aspect, range_of(arguments, curve_range)));
