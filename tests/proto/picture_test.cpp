@@ -85,7 +85,7 @@ TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
       SCOPED_TRACE(result.operation + " " + picture.name);
       const PictureCall call = read_picture(picture.name, "/picture");
       const auto svg = [&](unsigned threads) {
-        return to_svg(draw_result(result, call, {}, Control(threads)));
+        return to_svg(draw_result(result, call, {}, Control(threads)), Control());
       };
       const std::string text = svg(1);
       EXPECT_EQ(testing::why_malformed(text), "");
@@ -93,7 +93,7 @@ TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
       const std::string plain = without_images(text);
       for (const char* bad : {"nan", "inf\"", "inf ", "\"\"", "-0 "})
         EXPECT_EQ(plain.find(bad), std::string::npos) << bad;
-      const auto image = testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5));
+      const auto image = testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5, Control()));
       EXPECT_GT(image.width, 50u);
       EXPECT_GT(image.height, 50u);
     }
@@ -109,8 +109,8 @@ TEST(DrawResult, DrawsAsManyGroupsAsThereMayBe) {
   for (const Picture& picture : pictures()) {
     SCOPED_TRACE(picture.name);
     const PictureCall call = read_picture(picture.name, "/picture");
-    EXPECT_EQ(testing::why_malformed(to_svg(draw_result(result, call, {}, Control()))), "");
-    EXPECT_GT(testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5)).width, 50u);
+    EXPECT_EQ(testing::why_malformed(to_svg(draw_result(result, call, {}, Control()), Control())), "");
+    EXPECT_GT(testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5, Control())).width, 50u);
   }
 }
 
