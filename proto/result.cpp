@@ -84,7 +84,8 @@ Result load(const ordered_json& head, std::string_view data) {
 
 std::string write_picture(const Result& result, Format format, const nlohmann::json& picture,
                           const Limits& limits, const Control& control) {
-  const PictureCall call = read_picture(merged_picture(nlohmann::json(result.picture), picture), "/picture");
+  PictureCall call = read_picture(merged_picture(nlohmann::json(result.picture), picture), "/picture");
+  call.format = format;
   const Drawing drawing = draw_result(result, call, limits, control);
   if (format == Format::svg) return to_svg(drawing, control);
   try {

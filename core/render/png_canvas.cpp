@@ -18,7 +18,6 @@
 namespace wellspaced {
 namespace {
 
-constexpr double most_pixels = 4e7;
 constexpr std::size_t most_outline_points = 30'000;  // FreeType counts them in 16 bits
 
 /// Device pixels in 64ths, y up, as FreeType wants them.
@@ -310,9 +309,9 @@ class PngCanvas final : public Canvas {
 }  // namespace
 
 std::string to_png(const Drawing& drawing, double scale, const Control& control) {
-  if (!(drawing.width_px * drawing.height_px * scale * scale <= most_pixels))
+  if (!(drawing.width_px * drawing.height_px * scale * scale <= most_png_pixels))
     throw Error(ErrorCode::too_large,
-                "this would be a picture of more than forty million pixels; ask for a smaller scale or size",
+                "this would be a picture of more than fifty million pixels; ask for a smaller scale or size",
                 "/scale");
   control.check();
   PngCanvas canvas(drawing, scale, control);

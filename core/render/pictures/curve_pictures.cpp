@@ -12,7 +12,8 @@
 namespace wellspaced {
 namespace {
 
-constexpr double correlation_px = 560, histogram_px = 260;
+constexpr double correlation_px = 560, correlation_shape = 0.5, histogram_px = 260, histogram_shape = 0.7;
+constexpr std::size_t columns = 3;
 
 PairCorrelation mean_correlation(const PictureGroup& group, const PairCorrelationOptions& options,
                                  const Control& control) {
@@ -27,7 +28,7 @@ Drawing make_pair_correlation(std::span<const PictureGroup> groups, const Argume
   const double width_px = size_px_of(arguments, correlation_px);
   Chart chart;
   chart.width_px = width_px;
-  chart.height_px = 0.5 * width_px;
+  chart.height_px = correlation_shape * width_px;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const PairCorrelation mean = mean_correlation(groups[g], options, control);
     Series series = curve_of(groups, g);
@@ -142,7 +143,7 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
   for (const Quantity& quantity : quantities) {
     Chart chart;
     chart.width_px = width_px;
-    chart.height_px = 0.7 * width_px;
+    chart.height_px = histogram_shape * width_px;
     chart.legend = false;
     chart.x = axis_of(all, quantity);
     const std::size_t together =
@@ -155,7 +156,7 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
     legend = chart.series;
     charts.push_back(draw(std::move(chart)));
   }
-  Drawing sheet = with_legend(grid_of(std::move(charts), 3, panel_gap_px), legend);
+  Drawing sheet = with_legend(grid_of(std::move(charts), columns, panel_gap_px), legend);
   sheet.title = "distributions of beta_i, valences, angles, edges, nearest distances and cell areas";
   return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
 }
@@ -173,6 +174,10 @@ Picture pair_correlation_picture() {
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return pair_correlation_cost(size, pair_correlation_options(arguments));
   };
+  picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
+    const double width_px = size_px_of(arguments, correlation_px);
+    return sheet_of(chart_size(width_px, correlation_shape * width_px), 1, 1);
+  };
   picture.needs_torus = true;
   return picture;
 }
@@ -188,6 +193,10 @@ Picture distributions_picture() {
   picture.make = make_distributions;
   picture.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{3e-6 * size.n * size.sets, 500 * size.n};
+  };
+  picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
+    const double width_px = size_px_of(arguments, histogram_px);
+    return sheet_of(chart_size(width_px, histogram_shape * width_px), std::size(quantities), columns);
   };
   return picture;
 }

@@ -40,6 +40,17 @@ inline constexpr double least_chart_px = 180;
 /// What stands beside what.
 inline constexpr double panel_gap_px = 24;
 
+/// The side of an image of so many pixels across: each becomes a whole number of the picture's, so that none
+/// looks wider than the others, unless there are too many.
+double image_side_px(double size_px, double across);
+
+// How large things get, without what is in them.
+
+/// Of a chart with that frame.
+SheetSize chart_size(double frame_width_px, double frame_height_px);
+/// Of panels in a grid with a line above each, something below all, and a margin.
+SheetSize sheet_of(const SheetSize& panel, std::size_t panels, std::size_t columns);
+
 /// How many panels stand side by side, in pictures about as wide as they are high.
 std::size_t columns_of(std::size_t panels);
 
