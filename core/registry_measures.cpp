@@ -4,6 +4,8 @@
 #include <charconv>
 #include <string>
 
+#include "core/analyze/spectrum.h"
+
 namespace wellspaced {
 namespace {
 
@@ -35,6 +37,22 @@ Parameter whole(const char* name, const char* description, Range range, const st
 
 }  // namespace
 
+Parameter range_parameter(const char* description, double least, double most, double fallback) {
+  return number("range", description, {least, most}, fallback);
+}
+
+double range_of(const Arguments& arguments, double fallback) {
+  return argument(arguments, "range").value_or(fallback);
+}
+
+Cost periodogram_cost(const SetsSize& size, double range) {
+  const double k_max = k_max_of(size.n, size.aspect, range);
+  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
+  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
+  const double second = size.sets > 1 ? 16 * k_max * k_max : 0;  // beside the mean
+  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max), static_cast<double>(bytes) + second};
+}
+
 std::vector<Parameter> pair_correlation_parameters() {
   const PairCorrelationOptions defaults;
   return {number("reach", "up to which distance, in d_hex", {0.1, PairCorrelationOptions::largest_reach},
@@ -48,6 +66,11 @@ PairCorrelationOptions pair_correlation_options(const Arguments& arguments) {
   options.reach = argument(arguments, "reach").value_or(options.reach);
   options.bins = static_cast<int>(argument(arguments, "bins").value_or(options.bins));
   return options;
+}
+
+Cost pair_correlation_cost(const SetsSize& size, const PairCorrelationOptions& options) {
+  const double pairs = 1.9 * options.reach * options.reach * size.n;
+  return {size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
 }
 
 std::vector<Parameter> zone_plate_parameters() {

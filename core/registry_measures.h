@@ -20,8 +20,17 @@ struct SetsSize {
 
 // Options of measures as parameters, for the measure and for the picture of it.
 
+/// "range": how far frequencies go, in units of sqrt(n / A); what stands for it is said by each measure or
+/// picture.
+Parameter range_parameter(const char* description, double least, double most, double fallback);
+double range_of(const Arguments& arguments, double fallback);
+/// Of the mean periodogram of all sets up to that range; endless beyond the largest frequency there is.
+Cost periodogram_cost(const SetsSize& size, double range);
+
 std::vector<Parameter> pair_correlation_parameters();
 PairCorrelationOptions pair_correlation_options(const Arguments& arguments);
+/// Of all sets, not clustered, about.
+Cost pair_correlation_cost(const SetsSize& size, const PairCorrelationOptions& options);
 
 std::vector<Parameter> zone_plate_parameters();
 ZonePlateOptions zone_plate_options(const Arguments& arguments);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
@@ -64,14 +65,19 @@ Cost with_kept(const MeasureCall& call, const SetsSize& size) {
   return cost;
 }
 
+/// What points take while something is measured.
+double waiting_bytes(const AnalyzeRequest& request) {
+  double bytes = 0;
+  for (const SourceGroup& group : request.groups)
+    for (const PointSource& set : group.sets) bytes += bytes_kept * expected_points(set);
+  return bytes;
+}
+
 Cost cost_of(const AnalyzeRequest& request) {
   Cost cost;
-  double kept = 0;
+  double kept = waiting_bytes(request);
   for (const SourceGroup& group : request.groups) {
-    for (const PointSource& set : group.sets) {
-      cost = cost + cost_of(set);
-      kept += bytes_kept * expected_points(set);
-    }
+    for (const PointSource& set : group.sets) cost = cost + cost_of(set);
     for (const MeasureCall& call : request.measures) {
       const SetsSize size = size_of(group);
       const Cost own = call.measure->cost(size, call.arguments);
@@ -87,28 +93,56 @@ std::string mebibytes(double bytes) {
                         : "countless bytes";
 }
 
+MeasureCall with_argument(const MeasureCall& call, const Parameter& p, double value) {
+  MeasureCall changed = call;
+  changed.arguments[p.name] = value;
+  return changed;
+}
+
+/// Whether the measure takes that value of a parameter, as far as it can be told before the work.
+bool takes(const MeasureCall& call, const Parameter& p, double value, const SourceGroup& group) {
+  if (call.measure->check == nullptr) return true;
+  try {
+    call.measure->check(domain_of(group.sets.front()), size_of(group).n,
+                        with_argument(call, p, value).arguments);
+  } catch (const Error& error) {
+    return error.where() != "/" + p.name;
+  }
+  return true;
+}
+
+/// About the largest value of a parameter with which the measure keeps to the memory, and which it takes;
+/// nothing if there is none.
+std::optional<double> most_affordable(const MeasureCall& call, const Parameter& p, const SourceGroup& group,
+                                      double memory_bytes) {
+  const SetsSize size = size_of(group);
+  const auto fits = [&](double value) {
+    return with_kept(with_argument(call, p, value), size).bytes <= memory_bytes;
+  };
+  if (p.type == Parameter::Type::choice || !fits(p.minimum)) return std::nullopt;
+  double low = p.minimum, high = argument(call.arguments, p.name).value_or(p.maximum);
+  for (int step = 0; step < 60; ++step) ((fits((low + high) / 2)) ? low : high) = (low + high) / 2;
+  if (p.type != Parameter::Type::integer) return std::floor(low * 100) / 100;
+  double value = std::floor(low);
+  while (value > p.minimum && !takes(call, p, value, group)) --value;
+  return takes(call, p, value, group) ? std::optional(value) : std::nullopt;
+}
+
 /// A measure that asks for too much by its parameters is to blame before the points are.
 void require_affordable_measures(const AnalyzeRequest& request, const Limits& limits) {
   const auto limit = static_cast<double>(limits.memory_bytes);
+  const double waiting = waiting_bytes(request);
   for (const SourceGroup& group : request.groups)
     for (const MeasureCall& call : request.measures) {
-      const SetsSize size = size_of(group);
-      if (with_kept(call, size).bytes <= limit) continue;
+      const double bytes = with_kept(call, size_of(group)).bytes + waiting;
+      if (bytes <= limit) continue;
       for (const Parameter& p : call.measure->parameters) {
-        const auto fits = [&](double value) {
-          MeasureCall smaller = call;
-          smaller.arguments[p.name] = value;
-          return with_kept(smaller, size).bytes <= limit;
-        };
-        if (p.type == Parameter::Type::choice || !fits(p.minimum)) continue;
-        double low = p.minimum, high = argument(call.arguments, p.name).value_or(p.maximum);
-        for (int step = 0; step < 60; ++step) ((fits((low + high) / 2)) ? low : high) = (low + high) / 2;
+        const std::optional<double> most = most_affordable(call, p, group, limit - waiting);
+        if (!most) continue;
         throw Error(ErrorCode::too_large,
-                    call.measure->name + " of so many points would need about " +
-                        mebibytes(with_kept(call, size).bytes) + ", but the limit here is " +
-                        mebibytes(limit) + "; ask for a " + p.name + " of at most " +
-                        number_text(p.type == Parameter::Type::integer ? std::floor(low)
-                                                                       : std::floor(low * 100) / 100),
+                    call.measure->name + " of so many points would need about " + mebibytes(bytes) +
+                        ", but the limit here is " + mebibytes(limit) + "; ask for a " + p.name +
+                        " of at most " + number_text(*most),
                     call.pointer + "/" + p.name);
       }
     }

@@ -10,6 +10,7 @@
 #include "proto/fields.h"
 #include "proto/find_row.h"
 #include "proto/operations.h"
+#include "proto/picture_pixels.h"
 
 namespace wellspaced {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double largest_scale = 4;
 /// Pictures that don't draw every point may have so many times as many.
 constexpr double without_points_factor = 10;
 
@@ -26,8 +26,8 @@ Parameter scale_parameter() {
   p.name = "scale";
   p.description = "of a PNG, for displays and prints with finer pixels";
   p.unit = "pixels a pixel";
-  p.minimum = 0.25;
-  p.maximum = largest_scale;
+  p.minimum = least_scale;
+  p.maximum = most_scale;
   p.fallback = "1";
   return p;
 }
@@ -56,6 +56,7 @@ class Subject {
     group.aspect = std::max(group.height_over_width, 1 / group.height_over_width);
   }
 
+  std::span<const SetsSize> groups() const { return groups_; }
   double largest() const {
     double n = 0;
     for (const SetsSize& group : groups_) n = std::max(n, group.n);
@@ -107,6 +108,7 @@ void require_size(const Subject& subject, const PictureCall& call, const Limits&
   if (call.picture->draws_each_point)
     require_points(subject.largest(), drawn, "ask for the points and draw a part of them");
   require_points(subject.total(*call.picture), without_points_factor * drawn, "ask for fewer points or sets");
+  if (call.format == Format::png) require_pixels(call, subject.groups());
   const Cost cost = subject.cost(call);
   const auto memory = static_cast<double>(limits.memory_bytes);
   if (cost.seconds <= limits.picture_seconds && cost.bytes <= memory) return;

@@ -84,11 +84,12 @@ Result load(const ordered_json& head, std::string_view data) {
 
 std::string write_picture(const Result& result, Format format, const nlohmann::json& picture,
                           const Limits& limits, const Control& control) {
-  const PictureCall call = read_picture(merged_picture(nlohmann::json(result.picture), picture), "/picture");
+  PictureCall call = read_picture(merged_picture(nlohmann::json(result.picture), picture), "/picture");
+  call.format = format;
   const Drawing drawing = draw_result(result, call, limits, control);
-  if (format == Format::svg) return to_svg(drawing);
+  if (format == Format::svg) return to_svg(drawing, control);
   try {
-    return to_png(drawing, call.scale);
+    return to_png(drawing, call.scale, control);
   } catch (const Error& error) {
     throw error.where() == "/scale" ? error.within("/picture") : error;
   }

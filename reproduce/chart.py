@@ -4,6 +4,7 @@ import html
 import math
 from dataclasses import dataclass, field
 
+from reproduce import formulas
 from reproduce.client import Picture
 
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#b8529a", "#000000", "#56b4e9", "#e69f00"]
@@ -32,6 +33,14 @@ class Axis:
         step = next(power * k for k in (1, 2, 5, 10) if power * k >= rough)
         first = math.ceil(self.low / step - 1e-9)
         return [k * step for k in range(first, math.floor(self.high / step + 1e-9) + 1)], step
+
+
+def axis_over(label, low, high, values):
+    """From low to high, and somewhat beyond the values that are not between them."""
+    known = formulas.known(values)
+    room = 0.03 * (high - low)
+    least, most = min(known, default=low), max(known, default=high)
+    return Axis(label, low if least >= low else least - room, high if most <= high else most + room)
 
 
 @dataclass

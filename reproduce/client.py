@@ -1,5 +1,6 @@
 """The service's HTTP API, as far as the report needs it."""
 
+import contextlib
 import http.client
 import json
 import time
@@ -11,7 +12,8 @@ from reproduce import bodies
 
 LARGEST_SVG_BYTES = 1_000_000
 PNG_SCALE = 2
-LONGEST_SECONDS = 3600
+LONGEST_SECONDS = 3600  # of a request, and of a job
+WAIT_SECONDS = 60       # the longest that the server takes to say how a job gets on
 
 
 class Problem(Exception):
@@ -95,7 +97,7 @@ class Client:
         self._opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
     def get(self, path, **headers):
-        return self._send(urllib.request.Request(self._address + path, headers=headers))
+        return self._send(self._request(path, **headers))
 
     def post(self, path, body, **headers):
         headers = {"Content-Type": "application/json", **headers}
@@ -105,11 +107,18 @@ class Client:
         return json.loads(self.get("/v1/operations"))
 
     def job(self, operation, body):
-        """Does the work as a job and waits for its end."""
+        """Does the work as a job and waits for its end, but not for ever."""
         path = f"/v1/{operation}"
+        end = time.monotonic() + LONGEST_SECONDS
         job = json.loads(self.post(path, body, Prefer="respond-async"))
         while job["status"] in ("accepted", "running"):
-            job = json.loads(self.get(f"/v1/jobs/{job['id']}", Prefer="wait=60"))
+            if time.monotonic() >= end:
+                self._cancel(job["id"])
+                raise Problem({"title": "The job took too long",
+                               "detail": f"It was {job['status']} after {LONGEST_SECONDS} seconds and was given up; "
+                                         "./dev reproduce --short asks for less"}, bodies.curl(path, body))
+            job = json.loads(self._send(self._request(f"/v1/jobs/{job['id']}", Prefer=f"wait={WAIT_SECONDS}"),
+                                        2 * WAIT_SECONDS))
         if job["status"] != "successful":
             raise Problem(job.get("problem") or {"title": f"The job is {job['status']}"}, bodies.curl(path, body))
         result = json.loads(self.get(f"/v1/jobs/{job['id']}/result"))
@@ -121,11 +130,19 @@ class Client:
         answer = self.post(f"/v1/{operation}", body)
         return json.loads(answer), time.perf_counter() - started
 
-    def _send(self, request):
+    def _request(self, path, method="GET", **headers):
+        return urllib.request.Request(self._address + path, headers=headers, method=method)
+
+    def _cancel(self, job):
+        """Nothing is to be done about a server that doesn't take it."""
+        with contextlib.suppress(Problem):
+            self._send(self._request(f"/v1/jobs/{job}", "DELETE"), WAIT_SECONDS)
+
+    def _send(self, request, timeout=LONGEST_SECONDS):
         body = request.data.decode() if request.data else ""
         sent = f"{request.get_method()} {request.selector} {body}".strip()
         try:
-            with self._opener.open(request, timeout=LONGEST_SECONDS) as answer:
+            with self._opener.open(request, timeout=timeout) as answer:
                 return answer.read()
         except urllib.error.HTTPError as error:
             raise Problem(problem_document(error.read(), error.code), sent) from None

@@ -1,5 +1,6 @@
 """What the sections share: the client, how large everything is, and jobs that several of them look at."""
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -67,6 +68,12 @@ class Context:
                              self.averaged("cvt, Lloyd, 100 sweeps",
                                            bodies.optimized(start, "cvt", variant="lloyd", max_sweeps=100)),
                              self.averaged("far-point", bodies.optimized(start, "far-point"))], MESH_MEASURES)
+
+
+def target_of(group):
+    """What the sets of a group of `to_targets` were asked for; nothing for others."""
+    named = re.search(r", beta (\d\.\d+)$", group["label"])
+    return float(named[1]) if named else None
 
 
 def sets_of(group):

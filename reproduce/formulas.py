@@ -9,13 +9,29 @@ HEXAGONAL = 1.0
 ROUNDING = 1e-9
 
 
+def known(values):
+    """Without what an answer doesn't tell: null."""
+    return [value for value in values if value is not None]
+
+
+def least(values):
+    return min(known(values), default=None)
+
+
+def most(values):
+    return max(known(values), default=None)
+
+
 def d_hex(area, n):
     """Spacing of the triangular lattice with as many points."""
     return math.sqrt(2 * area / (math.sqrt(3) * n))
 
 
 def angle_bounds_deg(beta):
-    """All angles of the Delaunay triangles of a torus are between these (section 6.1)."""
+    """All angles of the Delaunay triangles of a torus are between these (section 6.1); without a beta there are
+    none."""
+    if beta is None:
+        return None, None
     if beta < 0.5:
         raise ValueError(f"no point set has beta {beta}")
     smallest = math.degrees(math.asin(1 / (2 * beta)))
@@ -24,12 +40,12 @@ def angle_bounds_deg(beta):
 
 def longest_edge_bound(beta):
     """Of the Delaunay edges, in r_f; the shortest is r_f itself."""
-    return 2 * beta
+    return None if beta is None else 2 * beta
 
 
 def no_obtuse_triangle(beta):
     """Whether beta rules them out."""
-    return beta < SQUARE
+    return beta is not None and beta < SQUARE
 
 
 def least_rho(beta):
@@ -49,6 +65,13 @@ def bounds_hold(spacing):
     if no_obtuse_triangle(spacing["beta"]):
         holds["no obtuse triangle"] = spacing["angle_max_deg"] <= 90 * (1 + ROUNDING)
     return holds
+
+
+def all_bounds_hold(spacing):
+    """Nothing where the numbers that it takes are not known."""
+    if None in (spacing[name] for name in ("beta", "angle_min_deg", "angle_max_deg", "edge_min", "edge_max")):
+        return None
+    return all(bounds_hold(spacing).values())
 
 
 def shares(counts):

@@ -5,7 +5,7 @@ import html
 import re
 from dataclasses import dataclass, field
 
-from reproduce import paper
+from reproduce import formulas, paper
 
 STYLE = """
 :root { color-scheme: light; }
@@ -78,24 +78,33 @@ def number(value, digits=3):
 
 
 def span(values, digits=3):
-    """Mean, and smallest to largest in parentheses unless they look the same."""
+    """Mean, and smallest to largest in parentheses unless they look the same; of those that are known."""
     values = list(values)
-    low, high = number(min(values), digits), number(max(values), digits)
-    mean = number(sum(values) / len(values), digits)
-    return mean if low == high else f"{mean} ({low}\u2013{high})"
+    known = formulas.known(values)
+    if not known:
+        return number(None)
+    low, high = number(min(known), digits), number(max(known), digits)
+    mean = number(sum(known) / len(known), digits)
+    missing = len(values) - len(known)
+    return ((mean if low == high else f"{mean} ({low}\u2013{high})")
+            + (f"; {missing} of {len(values)} not available" if missing else ""))
 
 
 def percent(share, digits=1):
-    return f"{100 * share:.{digits}f} %"
+    return number(None) if share is None else f"{100 * share:.{digits}f} %"
 
 
 def holds(condition):
-    """A verdict that can be seen: computed, never written."""
+    """A verdict that can be seen: computed, never written. None: there was nothing to compute it from."""
+    if condition is None:
+        return not_available()
     return Html('<span class="holds">holds</span>' if condition else '<span class="fails">FAILS</span>')
 
 
 def agrees(condition):
     """The same for what the paper says without a proof."""
+    if condition is None:
+        return not_available()
     return Html('<span class="holds">agrees</span>' if condition else '<span class="fails">DIFFERS</span>')
 
 

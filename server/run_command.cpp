@@ -86,8 +86,11 @@ std::string encoded_result(const Invocation& i, Format format, const std::string
   const Request request =
       read_request(raw_request(i.operation, content_type, body, query), i.config.limits, no_jobs);
   Control control(i.config.threads);
-  if (is_picture(format))
-    require_drawable(request, read_picture(request.picture, "/picture"), i.config.limits);
+  if (is_picture(format)) {
+    PictureCall call = read_picture(request.picture, "/picture");
+    call.format = format;
+    require_drawable(request, call, i.config.limits);
+  }
   return encode_result(execute(request, control), format, {}, i.config.limits, control).bytes;
 }
 

@@ -31,18 +31,6 @@ std::size_t rings_within(const Periodogram& p) {
 
 }  // namespace
 
-Periodogram average(std::span<const Periodogram> sets) {
-  Periodogram mean = sets.front();
-  for (const Periodogram& p : sets.subspan(1)) {
-    mean.n += p.n;
-    for (std::size_t i = 0; i < mean.power.size(); ++i) mean.power[i] += p.power[i];
-  }
-  const auto count = static_cast<double>(sets.size());
-  mean.n /= count;
-  for (double& power : mean.power) power /= count;
-  return mean;
-}
-
 double k_max_of(double n, double aspect, double range) {
   return std::max(1.0, std::ceil(range * std::sqrt(n * aspect)));
 }

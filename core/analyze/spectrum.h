@@ -22,16 +22,13 @@ struct Spectrum {
                                       ///< for sets without any preferred direction
 };
 
-/// The mean of periodograms, frequency by frequency. Requires: at least one; all of the same k_max and torus.
-Periodogram average(std::span<const Periodogram> sets);
-
 /// Whole frequencies that take both axes up to `range` sqrt(n / A), on a torus with sides of that ratio (>=
 /// 1).
 double k_max_of(double n, double aspect, double range);
 
-/// The periodogram up to `range` sqrt(n / A) along both axes, averaged over the sets. Requires: at least one;
-/// all of one size and on one torus. Errors: invalid_parameters at /range beyond largest_k_max; those of
-/// periodogram. Cost: that of a periodogram each; the memory of two results at once.
+/// The periodogram up to `range` sqrt(n / A) along both axes, averaged over the sets frequency by frequency.
+/// Requires: at least one; all of one size and on one torus. Errors: invalid_parameters at /range beyond
+/// largest_k_max; those of periodogram. Cost: that of a periodogram each; the memory of two results at once.
 Periodogram mean_periodogram(std::span<const PointSet> sets, double range, const Control& control);
 
 /// Cost: O(k_max^2). Determinism: sequential. Reference: Ulichney, "Dithering with Blue Noise", 1988, for

@@ -10,8 +10,9 @@
 namespace wellspaced {
 namespace {
 
-constexpr double left_px = 62, right_px = 16, bottom_px = 46, top_px = 12, tick_size_px = 12,
-                 title_size_px = 13, legend_row_px = 20, swatch_px = 22, heading_px = 22;
+constexpr double left_px = 62, right_px = beside_frame_px - left_px, bottom_px = 46,
+                 top_px = around_frame_px - bottom_px, tick_size_px = 12, title_size_px = 13,
+                 legend_row_px = 20, swatch_px = 22, heading_px = 22;
 
 std::string with_minus(const std::string& text) {
   return text.starts_with('-') ? "−" + text.substr(1) : text;

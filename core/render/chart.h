@@ -52,6 +52,9 @@ struct Chart {
   bool legend = true;               ///< of the series that have labels
 };
 
+/// What a chart without title and legend has beside its frame, and above and below it.
+inline constexpr double beside_frame_px = 78, around_frame_px = 58;
+
 Drawing draw(Chart chart);
 
 /// The legend of several charts with the same series, in rows of at most that width.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/control.h"
 #include "core/render/canvas.h"
 
 namespace wellspaced {
@@ -16,13 +17,17 @@ struct Drawing {
   std::function<void(Canvas&)> draw;
 };
 
-/// SVG text without ids, so that several can stand in one page. Determinism: the same bytes everywhere.
-std::string to_svg(const Drawing& drawing);
+/// SVG text without ids, so that several can stand in one page. Errors: cancelled, deadline_exceeded.
+/// Determinism: the same bytes everywhere, but for the zlib at hand in images.
+std::string to_svg(const Drawing& drawing, const Control& control);
 
-/// PNG with `scale` pixels for each of the drawing's. Errors: too_large at /scale for more than forty million
-/// pixels. Determinism: whole numbers throughout, so the same bytes on any CPU; the compression is
-/// that of the zlib at hand.
-std::string to_png(const Drawing& drawing, double scale);
+inline constexpr double most_png_pixels = 5e7;
+
+/// PNG with `scale` pixels for each of the drawing's. Errors: too_large at /scale for more than
+/// most_png_pixels; cancelled, deadline_exceeded: it stops within the shape or the row of pixels that it is
+/// at. Determinism: whole numbers throughout, so the same bytes on any CPU; the compression is that of the
+/// zlib at hand.
+std::string to_png(const Drawing& drawing, double scale, const Control& control);
 
 /// Drawings in rows of so many, each in the middle of a place as large as the largest.
 Drawing grid_of(std::vector<Drawing> panels, std::size_t columns, double gap_px);

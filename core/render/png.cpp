@@ -29,53 +29,71 @@ void append(png_structp png, png_bytep bytes, png_size_t size) {
     png_error(png, "out of memory");
 }
 
-bool is_gray(const Image& image) {
-  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
-    if (image.rgb[i] != image.rgb[i + 1] || image.rgb[i] != image.rgb[i + 2]) return false;
+bool is_gray(const std::uint8_t* rgb, std::size_t bytes) {
+  for (std::size_t i = 0; i + 2 < bytes; i += 3)
+    if (rgb[i] != rgb[i + 1] || rgb[i] != rgb[i + 2]) return false;
   return true;
 }
 
-/// One byte a pixel.
-std::vector<std::uint8_t> grays(const Image& image) {
-  std::vector<std::uint8_t> gray(image.rgb.size() / 3);
-  for (std::size_t i = 0; i < gray.size(); ++i) gray[i] = image.rgb[3 * i];
-  return gray;
-}
-
-/// libpng ends what it can't do by a jump, across which nothing may need a destructor.
-bool write_rows(png_structp png, png_infop info, const std::uint8_t* bytes, const Image& image, bool gray,
-                double pixels_per_inch) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  const std::size_t row = image.columns * (gray ? 1 : 3);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.columns), static_cast<png_uint_32>(image.rows), 8,
-               gray ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (pixels_per_inch > 0) {
-    const auto per_meter = static_cast<png_uint_32>(pixels_per_inch / 0.0254 + 0.5);
-    png_set_pHYs(png, info, per_meter, per_meter, PNG_RESOLUTION_METER);
+/// libpng's objects, given back however the writing ends.
+class Writer {
+ public:
+  Writer(const Image& image, const Control& control) : image_(image), control_(control) {
+    for (std::size_t y = 0; gray_ && y < image.rows; ++y) {
+      control.check();
+      gray_ = is_gray(row(y), 3 * image.columns);
+    }
+    if (gray_) grays_.resize(image.columns);
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    if (png_ != nullptr) info_ = png_create_info_struct(png_);
   }
-  png_write_info(png, info);
-  for (std::size_t y = 0; y < image.rows; ++y) png_write_row(png, bytes + y * row);
-  png_write_end(png, info);
-  return true;
-}
+  ~Writer() { png_destroy_write_struct(&png_, &info_); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  /// libpng ends what it can't do by a jump to here, across which nothing may need a destructor. What is
+  /// thrown between its calls passes none of its frames.
+  bool write(std::string& to, double pixels_per_inch) {
+    if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_set_write_fn(png_, &to, append, nullptr);
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(image_.columns), static_cast<png_uint_32>(image_.rows),
+                 8, gray_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (pixels_per_inch > 0) {
+      const auto per_meter = static_cast<png_uint_32>(pixels_per_inch / 0.0254 + 0.5);
+      png_set_pHYs(png_, info_, per_meter, per_meter, PNG_RESOLUTION_METER);
+    }
+    png_write_info(png_, info_);
+    for (std::size_t y = 0; y < image_.rows; ++y) {
+      control_.check();
+      png_write_row(png_, gray_ ? grays(y) : row(y));
+    }
+    png_write_end(png_, info_);
+    return true;
+  }
+
+ private:
+  const std::uint8_t* row(std::size_t y) const { return image_.rgb.data() + 3 * y * image_.columns; }
+
+  /// One byte a pixel.
+  const std::uint8_t* grays(std::size_t y) {
+    for (std::size_t x = 0; x < image_.columns; ++x) grays_[x] = row(y)[3 * x];
+    return grays_.data();
+  }
+
+  const Image& image_;
+  const Control& control_;
+  bool gray_ = true;
+  std::vector<std::uint8_t> grays_;  ///< scratch
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
 
 }  // namespace
 
-std::string write_png(const Image& image, double pixels_per_inch) {
+std::string write_png(const Image& image, double pixels_per_inch, const Control& control) {
   std::string out;
-  const bool gray = is_gray(image);
-  const std::vector<std::uint8_t> converted = gray ? grays(image) : std::vector<std::uint8_t>();
-  const std::uint8_t* bytes = gray ? converted.data() : image.rgb.data();
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  bool written = false;
-  if (info != nullptr) {
-    png_set_write_fn(png, &out, append, nullptr);
-    written = write_rows(png, info, bytes, image, gray, pixels_per_inch);
-  }
-  png_destroy_write_struct(&png, &info);
-  if (!written) throw Error(ErrorCode::internal, "libpng failed");
+  if (!Writer(image, control).write(out, pixels_per_inch)) throw Error(ErrorCode::internal, "libpng failed");
   return out;
 }
 

@@ -18,7 +18,6 @@
 namespace wellspaced {
 namespace {
 
-constexpr double most_pixels = 4e7;
 constexpr std::size_t most_outline_points = 30'000;  // FreeType counts them in 16 bits
 
 /// Device pixels in 64ths, y up, as FreeType wants them.
@@ -113,7 +112,8 @@ void for_each_dash(std::span<const Vec2> points, double dash, const Draw& draw) 
 
 class PngCanvas final : public Canvas {
  public:
-  PngCanvas(const Drawing& drawing, double scale) : scale_(scale), outline_(scale) {
+  PngCanvas(const Drawing& drawing, double scale, const Control& control)
+      : control_(control), scale_(scale), outline_(scale) {
     image_.columns = static_cast<std::size_t>(std::ceil(drawing.width_px * scale));
     image_.rows = static_cast<std::size_t>(std::ceil(drawing.height_px * scale));
     image_.rgb.assign(3 * image_.columns * image_.rows, 255);
@@ -135,7 +135,7 @@ class PngCanvas final : public Canvas {
     clip_ = {0, 0, static_cast<FT_Pos>(image_.columns), static_cast<FT_Pos>(image_.rows)};
   }
 
-  std::string finish() const { return write_png(image_, 96 * scale_); }
+  std::string finish() const { return write_png(image_, 96 * scale_, control_); }
 
  private:
   /// In device pixels, y down.
@@ -188,6 +188,7 @@ class PngCanvas final : public Canvas {
     const FT_Pos left = edge(area.x), top = edge(area.y), right = edge(area.right()),
                  bottom = edge(area.bottom());
     for (FT_Pos y = std::max(top, clip_.top); y < std::min(bottom, clip_.bottom); ++y) {
+      control_.check();
       const auto row =
           static_cast<std::size_t>(y - top) * image.rows / static_cast<std::size_t>(bottom - top);
       for (FT_Pos x = std::max(left, clip_.left); x < std::min(right, clip_.right); ++x) {
@@ -244,6 +245,7 @@ class PngCanvas final : public Canvas {
 
   /// What the stroker has made.
   void fill_stroke(const Pen& pen, double opacity) {
+    control_.check();
     FT_UInt points = 0, contours = 0;
     FT_Outline border{};
     if (FT_Stroker_GetCounts(stroker_, &points, &contours) != 0 || points > most_outline_points) return;
@@ -256,6 +258,7 @@ class PngCanvas final : public Canvas {
   }
 
   void fill(Rgb color, double opacity) {
+    control_.check();
     if (outline_.points().empty() || outline_.points().size() > most_outline_points) return;
     FT_Outline view = outline_.view();
     render(view, color, opacity);
@@ -290,6 +293,7 @@ class PngCanvas final : public Canvas {
     }
   }
 
+  const Control& control_;
   double scale_;
   Image image_;
   Clip clip_{};
@@ -304,12 +308,13 @@ class PngCanvas final : public Canvas {
 
 }  // namespace
 
-std::string to_png(const Drawing& drawing, double scale) {
-  if (!(drawing.width_px * drawing.height_px * scale * scale <= most_pixels))
+std::string to_png(const Drawing& drawing, double scale, const Control& control) {
+  if (!(drawing.width_px * drawing.height_px * scale * scale <= most_png_pixels))
     throw Error(ErrorCode::too_large,
-                "this would be a picture of more than forty million pixels; ask for a smaller scale or size",
+                "this would be a picture of more than fifty million pixels; ask for a smaller scale or size",
                 "/scale");
-  PngCanvas canvas(drawing, scale);
+  control.check();
+  PngCanvas canvas(drawing, scale, control);
   drawing.draw(canvas);
   return canvas.finish();
 }

@@ -73,7 +73,7 @@ std::string base64(std::string_view bytes) {
 
 class SvgCanvas final : public Canvas {
  public:
-  explicit SvgCanvas(const Drawing& drawing) {
+  SvgCanvas(const Drawing& drawing, const Control& control) : control_(control) {
     const std::string w = px(drawing.width_px), h = px(drawing.height_px);
     out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h +
            "\" viewBox=\"0 0 " + w + " " + h +
@@ -140,7 +140,7 @@ class SvgCanvas final : public Canvas {
     out_ += "<image x=\"" + px(area.x) + "\" y=\"" + px(area.y) + "\" width=\"" + px(area.width) +
             "\" height=\"" + px(area.height) +
             "\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\"" +
-            " href=\"data:image/png;base64," + base64(write_png(image)) + "\"/>\n";
+            " href=\"data:image/png;base64," + base64(write_png(image, 0, control_)) + "\"/>\n";
   }
 
   /// An inner svg element clips what it holds, and needs no id for that.
@@ -185,14 +185,16 @@ class SvgCanvas final : public Canvas {
     group_.reset();
   }
 
+  const Control& control_;
   std::string out_;
   std::optional<Paint> group_;
 };
 
 }  // namespace
 
-std::string to_svg(const Drawing& drawing) {
-  SvgCanvas canvas(drawing);
+std::string to_svg(const Drawing& drawing, const Control& control) {
+  control.check();
+  SvgCanvas canvas(drawing, control);
   drawing.draw(canvas);
   return canvas.finish();
 }

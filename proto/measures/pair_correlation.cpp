@@ -54,9 +54,7 @@ Measure pair_correlation_measure() {
   row.run = run;
   row.schema = schema;
   row.cost = [](const SetsSize& size, const Arguments& arguments) {
-    const PairCorrelationOptions options = pair_correlation_options(arguments);
-    const double pairs = 1.9 * options.reach * options.reach * size.n;
-    return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
+    return pair_correlation_cost(size, pair_correlation_options(arguments));
   };
   row.needs_torus = true;
   return row;

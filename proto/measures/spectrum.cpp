@@ -7,6 +7,7 @@
 
 #include "core/analyze/periodogram.h"
 #include "core/math.h"
+#include "core/registry_measures.h"
 #include "proto/measures/number_fields.h"
 #include "proto/measures/rows.h"
 
@@ -17,28 +18,8 @@ using nlohmann::ordered_json;
 
 constexpr double spectrum_range = 6.5, periodogram_range = 2.5;
 
-Parameter range_parameter(double fallback) {
-  Parameter p;
-  p.name = "range";
-  p.description = "largest frequency, in units of sqrt(n / A)";
-  p.minimum = 0.1;
-  p.maximum = 1000;
-  p.fallback = ordered_json(fallback).dump();
-  return p;
-}
-
-double range_of(const Arguments& arguments, double fallback) {
-  return argument(arguments, "range").value_or(fallback);
-}
-
-/// Two periodograms for more than one set.
-Cost cost_of_transforms(const SetsSize& size, double range) {
-  const double k_max = k_max_of(size.n, size.aspect, range);
-  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
-  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
-  const double power = 8 * 2 * k_max * k_max;
-  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max),
-          static_cast<double>(bytes) + (size.sets > 1 ? power : 0)};
+Parameter measured_range(double fallback) {
+  return range_parameter("largest frequency, in units of sqrt(n / A)", 0.1, 1000, fallback);
 }
 
 ordered_json optional_number(const std::optional<double>& value) {
@@ -105,11 +86,11 @@ ordered_json periodogram_schema() {
 }
 
 Cost spectrum_cost(const SetsSize& size, const Arguments& arguments) {
-  return cost_of_transforms(size, range_of(arguments, spectrum_range));
+  return periodogram_cost(size, range_of(arguments, spectrum_range));
 }
 
 Cost periodogram_measure_cost(const SetsSize& size, const Arguments& arguments) {
-  return cost_of_transforms(size, range_of(arguments, periodogram_range));
+  return periodogram_cost(size, range_of(arguments, periodogram_range));
 }
 
 /// Of as many numbers, each 16 bytes in a tree and some 20 as text, twice.
@@ -129,7 +110,7 @@ Measure spectrum_measure() {
       "anisotropy, "
       "effective Nyquist frequency and oscillations.";
   row.reference = "Ulichney 1988; Lagae and Dutre 2008; Heck, Schloemer and Deussen 2013";
-  row.parameters = {range_parameter(spectrum_range)};
+  row.parameters = {measured_range(spectrum_range)};
   row.run = run_spectrum;
   row.schema = spectrum_schema;
   row.cost = spectrum_cost;
@@ -145,7 +126,7 @@ Measure periodogram_measure() {
       "How much the sets hold of each frequency, on average: |sum_j exp(-2 pi i k.x_j)|^2 / n at whole k = "
       "(kx / width, ky / height).";
   row.reference = "Ulichney 1988";
-  row.parameters = {range_parameter(periodogram_range)};
+  row.parameters = {measured_range(periodogram_range)};
   row.run = run_periodogram;
   row.schema = periodogram_schema;
   row.cost = periodogram_measure_cost;

@@ -1,9 +1,9 @@
 """Fig. 8: valences and rho against beta."""
 
 from reproduce import formulas, paper
-from reproduce.chart import Axis, Chart, Series, side_by_side
+from reproduce.chart import Chart, Series, axis_over, side_by_side
 from reproduce.context import reached, reached_text, values
-from reproduce.report import Html, number, percent, span
+from reproduce.report import Html, not_available, number, percent, span
 
 VALENCES = (4, 5, 6, 7, 8)
 COLUMNS = ["point set", "#reached", "#beta", *(f"#valence {v}" for v in VALENCES), "#other", "#rho", "#mean beta_i"]
@@ -51,7 +51,8 @@ def known():
 
 def charts(references, local, own):
     def curve(groups, y):
-        return sorted((group["spacing"]["beta"], y(group)) for group in groups)
+        return sorted((group["spacing"]["beta"], y(group)) for group in groups
+                      if None not in (group["spacing"]["beta"], y(group)))
 
     def series(y):
         return [Series("opt-beta-local", curve(local, y)), Series("opt-beta", curve(own, y)),
@@ -63,11 +64,14 @@ def charts(references, local, own):
     def rho(group):
         return group["spacing"]["rho"]
 
-    steps = [0.66 + k * (1.02 - 0.66) / 60 for k in range(61)]
+    def chart(title, label, low, curves):
+        return Chart(title, x, axis_over(label, low, 1, [y for one in curves for _, y in one.points]), curves)
+
+    x = axis_over("beta", 0.66, 1.02, [group["spacing"]["beta"] for group in (*references, *local, *own)])
+    steps = [x.low + k * (x.high - x.low) / 60 for k in range(61)]
     bound = Series("least possible rho", [(b, formulas.least_rho(b)) for b in steps], dashed=True, marks=False)
-    x = Axis("beta", 0.66, 1.02)
-    return side_by_side([Chart("six neighbors", x, Axis("share with six neighbors", 0.4, 1), series(six)),
-                         Chart("rho", x, Axis("rho", 0.55, 1), [*series(rho), bound])],
+    return side_by_side([chart("six neighbors", "share with six neighbors", 0.4, series(six)),
+                         chart("rho", "rho", 0.55, [*series(rho), bound])],
                         "Share of points with six neighbors, and rho, against beta")
 
 
@@ -104,4 +108,4 @@ def largest_difference(mps):
 
 
 def difference(ours, said):
-    return Html(f"{number(100 * (ours / said - 1), 1)} %")
+    return not_available() if ours is None else Html(f"{number(100 * (ours / said - 1), 1)} %")

@@ -55,10 +55,13 @@ def row(group):
 
 def why(by_label):
     def least(name):
-        labels = [label for label in by_label if "input" not in label]
-        return min(labels, key=lambda label: by_label[label]["spacing"][name])
+        known = [label for label in by_label if "input" not in label and by_label[label]["spacing"][name] is not None]
+        return min(known, key=lambda label: by_label[label]["spacing"][name], default=None)
 
+    beta, mean = least("beta"), least("beta_i_mean")
+    if None in (beta, mean):
+        return "there is no method of which both the global and the mean ratio are available."
     return (f"how many sweeps the paper gave each method is {paper.NOT_AVAILABLE}, so only the order can be "
-            f"compared. Here the least global beta is that of {least('beta')}, the least mean beta_i that of "
-            f"{least('beta_i_mean')}: a method that makes most cells regular may leave the worst as it is, and "
-            "beta is about the worst.")
+            f"compared. Here the least global beta is that of {beta}, the least mean beta_i that of {mean}"
+            + (": a method that makes most cells regular may leave the worst as it is, and beta is about the worst."
+               if beta != mean else "."))

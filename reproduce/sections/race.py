@@ -41,7 +41,9 @@ def entrants():
 
 
 def push_pull(radii_of):
-    """Its targets are radii: those that opt-beta came to, which together are beta .85."""
+    """Its targets are radii: those that opt-beta came to, which together are beta .85. Nothing if it has none."""
+    if not radii_of["rho"]:
+        return None
     rho = formulas.floor_to(radii_of["rho"], 4)
     return Entrant("push-pull", "push-pull", {"rho": rho, "coverage": formulas.floor_to(TARGET * rho, 4)})
 
@@ -76,11 +78,12 @@ def fill(context, section):
     runs = []
     for entrant in entrants():
         runs.append(compete(context, entrant, start))
-        if entrant.label == "opt-beta, fast":
-            runs.append(timed(context, "push-pull", push_pull(runs[0].result).body(start),
+        follower = push_pull(runs[0].result) if entrant.label == "opt-beta, fast" else None
+        if follower:
+            runs.append(timed(context, "push-pull", follower.body(start),
                               f"its targets are radii: rho as opt-beta's here, coverage {TARGET:g} rho"))
     alone = formulas.median_and_range(generate)[0]
-    runs.sort(key=lambda run: (not there(run), formulas.median_and_range(run.seconds)[0]))
+    runs = ordered(runs)
     section.text(f"{sizes.race_points} points from the same MPS set to global beta {TARGET}. Seconds are those of "
                  f"{sizes.race_repeats} synchronous requests as seen by the client, from sending to the last byte "
                  "of the points as JSON: sampling, optimizing, measuring and proving, and writing. Sampling is "
@@ -102,6 +105,11 @@ def fill(context, section):
     findings(section, runs)
     section.requests(bodies.curl("/v1/generate", start["generate"]),
                      *(bodies.curl("/v1/optimize", run.body) for run in runs))
+
+
+def ordered(runs):
+    """Fastest first, and last those that are not there."""
+    return sorted(runs, key=lambda run: (not there(run), formulas.median_and_range(run.seconds)[0]))
 
 
 def seconds_text(seconds):

@@ -1,6 +1,6 @@
 """Fig. 9: spectra at each beta."""
 
-from reproduce import paper
+from reproduce import formulas, paper
 from reproduce.context import MESH_MEASURES, TARGETS, reached, reached_text
 from reproduce.report import number
 
@@ -47,7 +47,7 @@ def show(section, job, name):
 
 def row(group):
     spectrum, bonds = group["spectrum"], group["bond-order"]
-    peak = max(power for power in spectrum["power"] if power is not None)
+    peak = formulas.most(spectrum["power"])
     return [group["label"], reached_text(group), number(group["spacing"]["beta"]),
             number(spectrum["effective_nyquist"]), number(spectrum["oscillations"], 2),
             number(spectrum["anisotropy_mean_db"], 2),
@@ -55,10 +55,15 @@ def row(group):
             number(bonds["psi6_global"]), number(bonds["psi6_local"]), number(bonds["psi6_edges"])]
 
 
+def is_known(group):
+    return None not in (group["spectrum"]["oscillations"], group["spacing"]["beta"])
+
+
 def why(local, own):
     if not local:
         return "opt-beta-local reached none of its targets with all sets."
     pairs = [(a, next(b for b in own.groups if b["label"][-4:] == a["label"][-4:])) for a in local.groups]
+    pairs = [pair for pair in pairs if all(map(is_known, pair))]
     less = [b["label"][-4:] for a, b in pairs if b["spectrum"]["oscillations"] < a["spectrum"]["oscillations"]]
     text = f"at the same target opt-beta's spectra oscillate less than opt-beta-local's at {len(less)} of {len(pairs)}"
     text += f" targets{' (' + ', '.join(less) + ')' if less else ''}"

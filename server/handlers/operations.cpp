@@ -106,8 +106,11 @@ http::Response post_operation(Context& context, const std::string& operation,
     };
     const Request request = read_request(raw, context.config.limits, job_points);
     wanted.picture = nullptr;  // the request holds it
-    if (is_picture(wanted.format))
-      require_drawable(request, read_picture(request.picture, "/picture"), context.config.limits);
+    if (is_picture(wanted.format)) {
+      PictureCall call = read_picture(request.picture, "/picture");
+      call.format = wanted.format;
+      require_drawable(request, call, context.config.limits);
+    }
     if (!preference.respond_async) require_sync(request, context.config.limits);
 
     const bool attached = !preference.respond_async;

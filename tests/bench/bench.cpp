@@ -275,18 +275,19 @@ Row spectrum_of_points(std::uint64_t count, double bar) {
 /// What gentle leaves of randomness, from so many sets of 10,000 points.
 Row randomness(double beta, int sets, const CounterBar& bar) {
   const auto work = [=](State& state, Control& control) {
-    std::vector<Periodogram> periodograms;
+    constexpr double range = 6.4;
+    std::vector<PointSet> results;
     double swing = 0, five_or_seven = 0;
     for (int s = 1; s <= sets; ++s) {
       const PointSet& input = mps(ten_thousand, static_cast<std::uint64_t>(s));
-      const PointSet points = opt_beta(input, {beta, OptBetaOptions::Randomness::gentle, {}}, control).points;
-      periodograms.push_back(periodogram(points, 640, control));
-      swing += oscillations(spectrum(periodograms.back())).value() / sets;
-      Spacing spacing = measure_spacing(points, control);
+      results.push_back(opt_beta(input, {beta, OptBetaOptions::Randomness::gentle, {}}, control).points);
+      const Periodogram one = mean_periodogram({&results.back(), 1}, range, control);
+      swing += oscillations(spectrum(one)).value() / sets;
+      Spacing spacing = measure_spacing(results.back(), control);
       five_or_seven += 100 * static_cast<double>(spacing.valence[5] + spacing.valence[7]) /
                        static_cast<double>(spacing.n) / sets;
     }
-    const Spectrum mean = spectrum(average(periodograms), sets);
+    const Spectrum mean = spectrum(mean_periodogram(results, range, control), sets);
     state.counters["oscillations"] = swing;
     state.counters["5- and 7-valent %"] = five_or_seven;
     state.counters["Nyquist"] = effective_nyquist(mean).value();

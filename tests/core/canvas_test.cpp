@@ -1,7 +1,9 @@
 #include "core/render/canvas.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -33,7 +35,11 @@ Drawing drawing(double width, double height, std::function<void(Canvas&)> draw) 
 }
 
 PngImage png(double width, double height, double scale, std::function<void(Canvas&)> draw) {
-  return read_png(to_png(drawing(width, height, std::move(draw)), scale));
+  return read_png(to_png(drawing(width, height, std::move(draw)), scale, Control()));
+}
+
+std::string svg(std::function<void(Canvas&)> draw) {
+  return to_svg(drawing(50, 40, std::move(draw)), Control());
 }
 
 /// How much ink there is, in pixels of black.
@@ -58,7 +64,7 @@ TEST(TextRuns, ReadSubscriptsAndSuperscripts) {
 }
 
 TEST(SvgCanvas, WritesWellFormedXmlWhateverTheText) {
-  const std::string text = to_svg(drawing(50, 40, [](Canvas& canvas) {
+  const std::string text = svg([](Canvas& canvas) {
     canvas.text({1, 2}, "<&\">\x01\x7f\xef\xbf\xbe", {12, ink, Align::end, true});
     canvas.text({1, 2}, "a_b", {12, ink, Align::middle, false, true});
     canvas.text({1, 2}, "", {});
@@ -66,7 +72,7 @@ TEST(SvgCanvas, WritesWellFormedXmlWhateverTheText) {
     canvas.circle({5, 5}, 2, {red, Pen{blue, 1, 3}, 0.5});
     canvas.unclip();
     canvas.image({0, 0, 4, 4}, {1, 1, {1, 2, 3}});
-  }));
+  });
   EXPECT_EQ(why_malformed(text), "");
   expect_part(text, ">&lt;&amp;&quot;&gt;</text>");
   expect_part(text, ">a_b</text>");
@@ -75,12 +81,12 @@ TEST(SvgCanvas, WritesWellFormedXmlWhateverTheText) {
 }
 
 TEST(SvgCanvas, GroupsWhatIsPaintedAlike) {
-  const std::string text = to_svg(drawing(50, 40, [](Canvas& canvas) {
+  const std::string text = svg([](Canvas& canvas) {
     canvas.circle({1, 1}, 1, {red, std::nullopt});
     canvas.circle({2, 1}, 1, {red, std::nullopt});
     canvas.circle({3, 1}, 1, {blue, std::nullopt});
     canvas.circle({4, 1}, 1, {std::nullopt, Pen{blue, 1}});
-  }));
+  });
   EXPECT_EQ(testing::occurrences(text, "<g "), 2u);
   expect_part(text, "<circle r=\"1\" cx=\"2\" cy=\"1\"/>");
   expect_part(text, "<circle fill=\"#0000c8\" r=\"1\" cx=\"3\" cy=\"1\"/>");
@@ -208,18 +214,84 @@ TEST(PngCanvas, WritesTextWhereItIsAligned) {
 }
 
 TEST(PngCanvas, IsFreeToRefuseHugePictures) {
-  testing::expect_error([] { to_png(drawing(30'000, 30'000, [](Canvas&) {}), 1); }, ErrorCode::too_large,
-                        "/scale");
+  testing::expect_error([] { to_png(drawing(30'000, 30'000, [](Canvas&) {}), 1, Control()); },
+                        ErrorCode::too_large, "/scale");
+}
+
+/// Draws so many squares and cancels after one of them; how many it came to.
+int drawn_until_cancelled(int squares, int cancelled_after) {
+  Control control;
+  int drawn = 0;
+  const Drawing many = drawing(20, 20, [&](Canvas& canvas) {
+    for (int k = 0; k < squares; ++k) {
+      canvas.rectangle({1, 1, 10, 10}, {red, std::nullopt});
+      if (++drawn == cancelled_after) control.cancel();
+    }
+  });
+  testing::expect_error([&] { to_png(many, 1, control); }, ErrorCode::cancelled, "");
+  return drawn;
+}
+
+TEST(PngCanvas, StopsAtTheNextShapeAndWhileItIsWritten) {
+  EXPECT_EQ(drawn_until_cancelled(1000, 3), 3);
+  EXPECT_EQ(drawn_until_cancelled(5, 5), 5);  // nothing is left but to write it
+}
+
+TEST(PngCanvas, StopsAtItsDeadlineBeforeItBegins) {
+  Control control;
+  control.set_deadline(Control::Clock::now() - std::chrono::seconds(1));
+  const Drawing never = drawing(20, 20, [](Canvas&) { ADD_FAILURE() << "drawn"; });
+  testing::expect_error([&] { to_png(never, 1, control); }, ErrorCode::deadline_exceeded, "");
+  testing::expect_error([&] { to_svg(never, control); }, ErrorCode::deadline_exceeded, "");
+}
+
+TEST(PngCanvas, StopsAmongStrokesAndInImages) {
+  const Image image{1, 2, {0, 0, 0, 9, 9, 9}};
+  const std::function<void(Canvas&)> ways[] = {[](Canvas& canvas) {
+                                                 canvas.line({0, 0}, {9, 9}, {ink, 1});
+                                               },
+                                               [](Canvas& canvas) {
+                                                 canvas.circle({9, 9}, 3, {std::nullopt, Pen{ink, 1}});
+                                               },
+                                               [](Canvas& canvas) {
+                                                 canvas.text({0, 9}, "a", {});
+                                               },
+                                               [&](Canvas& canvas) {
+                                                 canvas.image({0, 0, 9, 9}, image);
+                                               }};
+  for (const auto& way : ways) {
+    Control control;
+    const auto draw = [&](Canvas& canvas) {
+      control.cancel();
+      way(canvas);
+      ADD_FAILURE() << "went on";
+    };
+    testing::expect_error([&] { to_png(drawing(20, 20, draw), 1, control); }, ErrorCode::cancelled, "");
+  }
+}
+
+TEST(WritePng, StopsWhenItIsCancelled) {
+  Control control;
+  control.cancel();
+  const Image gray{1, 1, {7, 7, 7}}, color{1, 1, {1, 2, 3}};
+  for (const Image& image : {gray, color})
+    testing::expect_error([&] { write_png(image, 0, control); }, ErrorCode::cancelled, "");
+  Control late;
+  const Drawing pictured = drawing(9, 9, [&](Canvas& canvas) {
+    late.cancel();
+    canvas.image({0, 0, 9, 9}, gray);
+  });
+  testing::expect_error([&] { to_svg(pictured, late); }, ErrorCode::cancelled, "");
 }
 
 TEST(WritePng, WritesGraysAsGraysAndTellsTheResolution) {
   const Image gray{2, 2, {0, 0, 0, 7, 7, 7, 9, 9, 9, 255, 255, 255}}, color{1, 1, {1, 2, 3}};
-  EXPECT_EQ(read_png(write_png(gray)).rgb, gray.rgb);
-  EXPECT_EQ(read_png(write_png(color)).rgb, color.rgb);
-  EXPECT_EQ(write_png(gray)[25], 0);  // color types of the header
-  EXPECT_EQ(write_png(color)[25], 2);
-  EXPECT_EQ(write_png(gray).find("pHYs"), std::string::npos);
-  EXPECT_NE(write_png(gray, 192).find("pHYs"), std::string::npos);
+  EXPECT_EQ(read_png(write_png(gray, 0, Control())).rgb, gray.rgb);
+  EXPECT_EQ(read_png(write_png(color, 0, Control())).rgb, color.rgb);
+  EXPECT_EQ(write_png(gray, 0, Control())[25], 0);  // color types of the header
+  EXPECT_EQ(write_png(color, 0, Control())[25], 2);
+  EXPECT_EQ(write_png(gray, 0, Control()).find("pHYs"), std::string::npos);
+  EXPECT_NE(write_png(gray, 192, Control()).find("pHYs"), std::string::npos);
 }
 
 TEST(Font, MeasuresText) {
@@ -246,7 +318,7 @@ TEST(Fitted, CutsAtCharacters) {
 TEST(Chart, MarksPointsThatStandAlone) {
   Chart chart;
   chart.series = {{"", {0.1, 0.2, 0.3}, {std::nan(""), 0.5, std::nan("")}}};
-  EXPECT_EQ(testing::occurrences(to_svg(draw(chart)), "<circle"), 1u);
+  EXPECT_EQ(testing::occurrences(to_svg(draw(chart), Control()), "<circle"), 1u);
 }
 
 TEST(ClassesOfCurves, CanBeToldApart) {
@@ -299,8 +371,8 @@ TEST(Chart, DrawsOnlyWhatIsNearItsFrame) {
   }
   chart.series = {far};
   const Drawing drawn = draw(chart);
-  EXPECT_LT(to_svg(drawn).size(), 20'000u);
-  EXPECT_NO_THROW(to_png(drawn, 2));
+  EXPECT_LT(to_svg(drawn, Control()).size(), 20'000u);
+  EXPECT_NO_THROW(to_png(drawn, 2, Control()));
 }
 
 TEST(NumberLabel, IsShort) {
@@ -345,12 +417,12 @@ TEST(Chart, ShowsOnlyWhatIsWithinItsRanges) {
   chart.references = {
       {std::nullopt, 0.3, "here"}, {0.4, std::nullopt, "there"}, {std::nullopt, 3, "not shown"}};
   const Drawing d = draw(chart);
-  const std::string text = to_svg(d);
+  const std::string text = to_svg(d, Control());
   EXPECT_EQ(why_malformed(text), "");
   expect_part(text, "here");
   EXPECT_EQ(text.find("not shown"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
-  EXPECT_NO_THROW(to_png(d, 1));
+  EXPECT_NO_THROW(to_png(d, 1, Control()));
   EXPECT_GT(draw(chart).height_px, chart.height_px + 60);
 }
 

@@ -29,7 +29,7 @@ std::string svg(const PointSet& points, const std::string& picture = "voronoi", 
                 const Arguments& arguments = {}) {
   const Control control(threads);
   const PictureGroup group{"", {&points, 1}, {}};
-  return to_svg(picture_named(picture).make({&group, 1}, arguments, control));
+  return to_svg(picture_named(picture).make({&group, 1}, arguments, control), control);
 }
 
 constexpr const char* point_pictures[] = {"voronoi", "delaunay", "points"};
@@ -191,7 +191,8 @@ TEST(PointPictures, DrawAllSetsOfAGroupAndTheFirstOfEachOfSeveral) {
                                       testing::random_points(1, 1, 20, 3)};
   const Control control;
   const auto circles = [&](std::span<const PictureGroup> groups) {
-    return occurrences(to_svg(picture_named("points").make(groups, {{"size_px", 100}}, control)), "<circle");
+    return occurrences(to_svg(picture_named("points").make(groups, {{"size_px", 100}}, control), control),
+                       "<circle");
   };
   const PictureGroup all{"a <label> & more", sets, {}};
   EXPECT_GE(circles({&all, 1}), 60u);
@@ -199,7 +200,7 @@ TEST(PointPictures, DrawAllSetsOfAGroupAndTheFirstOfEachOfSeveral) {
   const std::vector<PictureGroup> two = {all, {"b", {sets.data(), 2}, {}}};
   EXPECT_GE(circles(two), 40u);
   EXPECT_LT(circles(two), 60u);
-  const std::string text = to_svg(picture_named("points").make(two, {}, control));
+  const std::string text = to_svg(picture_named("points").make(two, {}, control), control);
   EXPECT_EQ(why_malformed(text), "");
   expect_part(text, "a &lt;label&gt; &amp; more");
 }

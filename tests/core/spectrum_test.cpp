@@ -16,11 +16,9 @@ namespace {
 
 using testing::random_points;
 
-std::vector<Periodogram> white_noise(double width, double height, std::size_t n, int k_max, int sets) {
-  std::vector<Periodogram> all;
-  for (int s = 0; s < sets; ++s)
-    all.push_back(
-        periodogram(random_points(width, height, n, static_cast<std::uint64_t>(s)), k_max, Control(2)));
+std::vector<PointSet> white_noise(double height, std::size_t n, int sets) {
+  std::vector<PointSet> all;
+  for (int s = 0; s < sets; ++s) all.push_back(random_points(1, height, n, static_cast<std::uint64_t>(s)));
   return all;
 }
 
@@ -36,7 +34,8 @@ Periodogram rings(double n, int k_max, const Function& f) {
 
 TEST(Spectrum, OfWhiteNoiseIsOneInEveryDirection) {
   for (const double height : {1.0, 0.25}) {
-    const Spectrum s = spectrum(average(white_noise(1, height, 1024, 90, 10)), 10);
+    const double range = 90 / std::sqrt(1024 / height);
+    const Spectrum s = spectrum(mean_periodogram(white_noise(height, 1024, 10), range, Control(2)), 10);
     EXPECT_EQ(s.n, 1024);
     ASSERT_EQ(s.power.size(), height == 1 ? 91u : 46u);
     for (std::size_t r = 5; r < s.power.size(); ++r) {
@@ -86,17 +85,17 @@ TEST(Spectrum, MeasuresOscillationsByArea) {
 }
 
 TEST(Spectrum, OfMaximalPoissonDisksIsWhatTheFieldFound) {
-  std::vector<Periodogram> sets;
+  std::vector<PointSet> sets;
+  Control control(2);
+  double mean = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Rng rng(seed);
-    Control control(2);
-    sets.push_back(periodogram(
-        poisson_disk(std::make_shared<Torus>(), {poisson_disk_radius(1, 4000)}, rng, control), 400, control));
+    sets.push_back(poisson_disk_of_count(std::make_shared<Torus>(), 4000, rng, control));
+    mean += oscillations(spectrum(periodogram(sets.back(), 400, control))).value() / 3;
   }
-  double mean = 0;
-  for (const Periodogram& p : sets) mean += oscillations(spectrum(p)).value() / 3;
   EXPECT_NEAR(mean, 1.59, 0.1);
-  EXPECT_NEAR(mean_anisotropy_db(spectrum(average(sets), 3)).value(), 10 * std::log10(1 / 3.0), 0.15);
+  const Periodogram all = mean_periodogram(sets, 6.3, control);
+  EXPECT_NEAR(mean_anisotropy_db(spectrum(all, 3)).value(), 10 * std::log10(1 / 3.0), 0.15);
 }
 
 TEST(Spectrum, OfALatticeIsFarFromWhiteAndRound) {
@@ -129,11 +128,15 @@ TEST(Spectrum, SaysNothingOfWhatItDoesNotReach) {
 }
 
 TEST(Spectrum, AveragesFrequencyByFrequency) {
-  const std::vector<Periodogram> sets = white_noise(1, 1, 50, 6, 3);
-  const Periodogram mean = average(sets);
+  const std::vector<PointSet> sets = white_noise(1, 64, 3);
+  const Periodogram mean = mean_periodogram(sets, 0.75, Control());
+  EXPECT_EQ(mean.k_max, 6);
+  EXPECT_EQ(mean.n, 64);
+  std::vector<Periodogram> each;
+  for (const PointSet& set : sets) each.push_back(periodogram(set, 6, Control()));
   for (std::size_t i = 0; i < mean.power.size(); ++i)
-    EXPECT_NEAR(mean.power[i], (sets[0].power[i] + sets[1].power[i] + sets[2].power[i]) / 3, 1e-12);
-  EXPECT_EQ(average({sets.data(), 1}).power, sets[0].power);
+    EXPECT_NEAR(mean.power[i], (each[0].power[i] + each[1].power[i] + each[2].power[i]) / 3, 1e-12);
+  EXPECT_EQ(mean_periodogram({sets.data(), 1}, 0.75, Control()).power, each[0].power);
 }
 
 }  // namespace

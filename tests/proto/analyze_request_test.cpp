@@ -164,6 +164,33 @@ TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
   });
 }
 
+/// The pixels that a refused differential measure says to ask for, with so much memory.
+int suggested_pixels(const std::string& measure_with, int pixels, const Limits& limits) {
+  try {
+    read("analyze", measure_with + std::to_string(pixels) + "}]}", limits);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "/measures/0/pixels") << error.what();
+    const std::string text = error.what(), before = "ask for a pixels of at most ";
+    const auto at = text.find(before);
+    if (at != std::string::npos) return std::stoi(text.substr(at + before.size()));
+    ADD_FAILURE() << text;
+  }
+  return 0;
+}
+
+TEST(ReadRequest, SuggestsOnlyPixelsThatTheMeasureTakes) {
+  const std::string wanted =
+      R"({"points":{"generate":{"count":100}},"measures":[{"measure":"differential","sigma":0.25,"pixels":)";
+  for (std::uint64_t kibibytes = 3000; kibibytes < 9000; kibibytes += 97) {
+    Limits limits;
+    limits.memory_bytes = kibibytes << 10;
+    const int pixels = suggested_pixels(wanted, 1025, limits);
+    EXPECT_EQ(pixels % 2, 1) << kibibytes;
+    EXPECT_NO_THROW(read("analyze", wanted + std::to_string(pixels) + "}]}", limits)) << pixels;
+    EXPECT_EQ(suggested_pixels(wanted, pixels + 2, limits), pixels);  // it is the largest
+  }
+}
+
 /// A domain that repeats along no axis.
 TEST(RequireMeaning, RefusesSpectraWhereNothingRepeats) {
   for (const Measure& measure : measures()) {

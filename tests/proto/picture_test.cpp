@@ -85,7 +85,7 @@ TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
       SCOPED_TRACE(result.operation + " " + picture.name);
       const PictureCall call = read_picture(picture.name, "/picture");
       const auto svg = [&](unsigned threads) {
-        return to_svg(draw_result(result, call, {}, Control(threads)));
+        return to_svg(draw_result(result, call, {}, Control(threads)), Control());
       };
       const std::string text = svg(1);
       EXPECT_EQ(testing::why_malformed(text), "");
@@ -93,7 +93,7 @@ TEST(DrawResult, DrawsEveryPictureOfEveryResultInBothFormats) {
       const std::string plain = without_images(text);
       for (const char* bad : {"nan", "inf\"", "inf ", "\"\"", "-0 "})
         EXPECT_EQ(plain.find(bad), std::string::npos) << bad;
-      const auto image = testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5));
+      const auto image = testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5, Control()));
       EXPECT_GT(image.width, 50u);
       EXPECT_GT(image.height, 50u);
     }
@@ -109,8 +109,8 @@ TEST(DrawResult, DrawsAsManyGroupsAsThereMayBe) {
   for (const Picture& picture : pictures()) {
     SCOPED_TRACE(picture.name);
     const PictureCall call = read_picture(picture.name, "/picture");
-    EXPECT_EQ(testing::why_malformed(to_svg(draw_result(result, call, {}, Control()))), "");
-    EXPECT_GT(testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5)).width, 50u);
+    EXPECT_EQ(testing::why_malformed(to_svg(draw_result(result, call, {}, Control()), Control())), "");
+    EXPECT_GT(testing::read_png(to_png(draw_result(result, call, {}, Control()), 0.5, Control())).width, 50u);
   }
 }
 
@@ -182,6 +182,125 @@ TEST(RequireDrawable, LimitsTheTime) {
     if (!picture.needs_history) {
       EXPECT_NO_THROW(require_drawable(request, read_picture(picture.name, "/picture"), {})) << picture.name;
     }
+}
+
+PictureCall as_png(const json& picture) {
+  PictureCall call = read_picture(picture, "/picture");
+  call.format = Format::png;
+  return call;
+}
+
+std::string refusal_of(const Request& request, const PictureCall& call) {
+  try {
+    require_drawable(request, call, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RequireDrawable, RefusesAPngOfTooManyPixelsAndNamesTheFieldBeforeTheWork) {
+  const Request one = read("generate", R"({"count":100})"),
+                many = read("analyze", R"({"points":{"generate":{"count":100}},"seeds":16})");
+  const json fine = {{"name", "voronoi"}, {"scale", 4}},
+             large = {{"name", "voronoi"}, {"scale", 4}, {"size_px", 4000}},
+             wide = {{"name", "voronoi"}, {"size_px", 4000}};
+  EXPECT_NO_THROW(require_drawable(one, as_png(fine), {}));
+  EXPECT_NO_THROW(require_drawable(one, as_png(wide), {}));
+  EXPECT_NO_THROW(require_drawable(one, read_picture(large, "/picture"), {}));  // as SVG
+  const auto refuses = [](const Request& request, const json& picture, const char* where, const char* part) {
+    expect_refused([&] { require_drawable(request, as_png(picture), {}); }, ErrorCode::too_large, where,
+                   part);
+  };
+  refuses(one, large, "/picture/scale", "most are 40 million; ask for a scale of at most 1.5");
+  refuses(many, fine, "/picture/scale", "or for fewer sets");
+  refuses(many, wide, "/picture/size_px", "or for a size_px of at most 15");
+  refuses(many, large, "/picture", "fewer sets");
+}
+
+TEST(RequireDrawable, SuggestsWhatItThenTakes) {
+  const Request many = read("analyze", R"({"compare":[{"points":{"generate":{"count":300}}},
+      {"points":{"generate":{"count":200,"domain":{"width":3}}}},{"points":{"generate":{"count":200}}}]})");
+  for (const Picture& picture : pictures()) {
+    if (picture.needs_history) continue;
+    SCOPED_TRACE(picture.name);
+    json asked = {{"name", picture.name}, {"size_px", 4000}, {"scale", 4}};
+    const std::string text = refusal_of(many, as_png(asked)), size = "a size_px of at most ",
+                      scale = "a scale of at most ";
+    for (const auto& [before, field] : {std::pair(size, "size_px"), std::pair(scale, "scale")}) {
+      const auto at = text.find(before);
+      if (at == std::string::npos) continue;
+      json smaller = asked;
+      smaller[field] = std::stod(text.substr(at + before.size()));
+      EXPECT_EQ(refusal_of(many, as_png(smaller)), "") << text;
+    }
+    EXPECT_THAT(text, HasSubstr(size));
+  }
+}
+
+TEST(DrawResult, RefusesAPngOfTooManyPixelsToo) {
+  const Result result = run("generate", R"({"count":30})");
+  const json picture = {{"name", "points"}, {"size_px", 4000}, {"scale", 3}};
+  expect_refused([&] { draw_result(result, as_png(picture), {}, Control()); }, ErrorCode::too_large,
+                 "/picture/scale", "150 million pixels");
+  expect_refused([&] { encode_result(result, Format::png, picture, {}, Control()); }, ErrorCode::too_large,
+                 "/picture/scale", "ask for");
+  EXPECT_NO_THROW(encode_result(result, Format::svg, picture, {}, Control()));
+}
+
+std::vector<SetsSize> sizes_of(const Result& result) {
+  std::vector<SetsSize> sizes;
+  for (const ResultGroup& group : result.groups) {
+    const Vec3 sides = group.sets.front().domain->box().size;
+    SetsSize size;
+    size.n = static_cast<double>(group.sets.front().size());
+    size.sets = static_cast<double>(group.sets.size());
+    size.height_over_width = sides.y / sides.x;
+    size.aspect = std::max(sides.y / sides.x, sides.x / sides.y);
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+void expect_known_size(const Result& result, const json& asked) {
+  SCOPED_TRACE(asked.dump());
+  const PictureCall call = read_picture(asked, "/picture");
+  const Drawing drawing = draw_result(result, call, {}, Control());
+  const SheetSize sheet = call.picture->sheet(sizes_of(result), call.arguments);
+  const double pixels = drawing.width_px * drawing.height_px, known = sheet.width_px * sheet.height_px;
+  EXPECT_LT(pixels, 1.25 * known) << drawing.width_px << " x " << drawing.height_px << " for "
+                                  << sheet.width_px << " x " << sheet.height_px;
+  EXPECT_GT(pixels, 0.75 * known) << drawing.width_px << " x " << drawing.height_px << " for "
+                                  << sheet.width_px << " x " << sheet.height_px;
+}
+
+TEST(DrawResult, DrawsSheetsOfTheSizeThatWasKnownBefore) {
+  const std::string optimized = R"({"optimize":{"points":{"generate":{"count":60}},"beta":0.85}})";
+  std::vector<Result> all = results();
+  all.push_back(run("analyze", R"({"points":)" + optimized + R"(,"seeds":18})"));
+  all.push_back(run("analyze", R"({"points":{"optimize":{"points":{"generate":{"count":100,"domain":
+                                   {"width":1,"height":2.5}}},"method":"cvt","max_sweeps":3}}})"));
+  for (const Result& result : all)
+    for (const Picture& picture : pictures())
+      for (const int size_px : {300, 700, 1600}) {
+        expect_known_size(result, {{"name", picture.name}, {"size_px", size_px}});
+        if (picture.name == "zone-plate")
+          expect_known_size(result, {{"name", picture.name}, {"size_px", size_px}, {"columns", 230}});
+        if (picture.name == "differential")
+          expect_known_size(result, {{"name", picture.name}, {"size_px", size_px}, {"pixels", 451}});
+        if (picture.name == "periodogram")
+          expect_known_size(result, {{"name", picture.name}, {"size_px", size_px}, {"range", 9}});
+      }
+}
+
+TEST(DrawResult, DrawsSheetsOfThinDomainsOfTheSizeThatWasKnownBefore) {
+  std::string thin;
+  for (int g = 0; g < 9; ++g)
+    thin += std::string(g == 0 ? "" : ",") +
+            R"({"label":"thin","points":{"generate":{"count":600,"domain":{"width":1,"height":25}}}})";
+  const Result result = run("analyze", R"({"compare":[)" + thin + "]}");
+  for (const char* name : {"voronoi", "points", "zone-plate"})
+    expect_known_size(result, {{"name", name}, {"size_px", 1600}});
 }
 
 TEST(MergedPicture, TakesParametersOfTheQueryForThePictureOfTheRequest) {

@@ -231,6 +231,19 @@ TEST_F(Service, RefusesPicturesThatTakeTooLong) {
   EXPECT_EQ(refused.parsed()["errors"][0]["pointer"], "/picture/columns");
 }
 
+TEST_F(Service, RefusesHugePngsBeforeTheWork) {
+  const std::string query = "?format=png&picture=points&picture.size_px=4000&picture.scale=3";
+  // To optimize that many points takes seconds; no job is made of it.
+  const std::string body = R"({"points":{"generate":{"count":100000}}})";
+  const auto jobs = [&] { return caller.get("/v1/jobs").parsed()["jobs"].size(); };
+  const std::size_t before = jobs();
+  const Answer refused = caller.post("/v1/optimize" + query, body);
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.problem(), "too-large");
+  EXPECT_EQ(refused.parsed()["errors"][0]["pointer"], "/picture/scale");
+  EXPECT_EQ(jobs(), before);
+}
+
 TEST_F(Service, RefusesFormatsItDoesNotHaveWithTheListOfThoseItHas) {
   for (const Answer& answer :
        {caller.post("/v1/generate", R"({"count":50})", {{"Accept", "application/pdf"}}),

@@ -9,7 +9,8 @@
 namespace wellspaced {
 namespace {
 
-constexpr double width_px = 300;
+constexpr double width_px = 300, shape = 0.8;
+constexpr std::size_t columns = 3;
 
 /// What is drawn of a sweep, in units of `scale`.
 struct Quantity {
@@ -27,11 +28,9 @@ double unit_of(const Quantity& quantity, const PictureGroup& group) {
   return quantity.length ? hexagonal_spacing(set.domain->area(), set.size()) : 1;
 }
 
-Series series_of(const PictureGroup& group, const Quantity& quantity, std::size_t number, bool named) {
-  Series series;
-  if (named) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
-  series.color = color_of_class(number);
-  series.dash_px = dash_px_of_class(number);
+Series history_of(std::span<const PictureGroup> groups, std::size_t number, const Quantity& quantity) {
+  const PictureGroup& group = groups[number];
+  Series series = curve_of(groups, number);
   constexpr std::size_t most_marks = 60;
   series.marks = group.history.size() <= most_marks;
   for (const SweepRecord& sweep : group.history) {
@@ -59,9 +58,8 @@ Drawing chart_of(std::span<const PictureGroup> groups, const Quantity& quantity,
                  double size_px) {
   Chart chart;
   chart.width_px = size_px;
-  chart.height_px = 0.8 * size_px;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    chart.series.push_back(series_of(groups[g], quantity, g, groups.size() > 1));
+  chart.height_px = shape * size_px;
+  for (std::size_t g = 0; g < groups.size(); ++g) chart.series.push_back(history_of(groups, g, quantity));
   const auto [low, high] = limits_of(chart.series, last_sweep);
   chart.legend = false;
   chart.x = {0, last_sweep, "sweep"};
@@ -80,9 +78,8 @@ Drawing make(std::span<const PictureGroup> groups, const Arguments& arguments, c
   for (const Quantity& quantity : quantities)
     charts.push_back(chart_of(groups, quantity, last_sweep, size_px));
   std::vector<Series> legend;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    legend.push_back(series_of(groups[g], quantities[0], g, groups.size() > 1));
-  Drawing sheet = with_legend(grid_of(std::move(charts), 3, panel_gap_px), legend);
+  for (std::size_t g = 0; g < groups.size(); ++g) legend.push_back(curve_of(groups, g));
+  Drawing sheet = with_legend(grid_of(std::move(charts), columns, panel_gap_px), legend);
   sheet.title = "beta, coverage radius and conflict radius by sweep";
   return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
 }
@@ -105,6 +102,10 @@ Picture convergence_picture() {
   picture.parameters = {last, size_parameter(width_px, least_chart_px)};
   picture.make = make;
   picture.cost = [](const SetsSize&, const Arguments&) { return Cost{0.01, 1e6}; };
+  picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
+    const double size_px = size_px_of(arguments, width_px);
+    return sheet_of(chart_size(size_px, shape * size_px), std::size(quantities), columns);
+  };
   picture.needs_history = true;
   picture.averages = false;
   return picture;

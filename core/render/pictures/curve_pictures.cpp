@@ -12,16 +12,8 @@
 namespace wellspaced {
 namespace {
 
-constexpr double correlation_px = 560, histogram_px = 260;
-
-/// How a group's curve looks among others. The legend names it where there are several.
-Series series_for(const PictureGroup& group, std::size_t number, std::size_t groups) {
-  Series series;
-  if (groups > 1) series.label = group.label.empty() ? "set " + std::to_string(number + 1) : group.label;
-  series.color = color_of_class(number);
-  series.dash_px = dash_px_of_class(number);
-  return series;
-}
+constexpr double correlation_px = 560, correlation_shape = 0.5, histogram_px = 260, histogram_shape = 0.7;
+constexpr std::size_t columns = 3;
 
 PairCorrelation mean_correlation(const PictureGroup& group, const PairCorrelationOptions& options,
                                  const Control& control) {
@@ -36,10 +28,10 @@ Drawing make_pair_correlation(std::span<const PictureGroup> groups, const Argume
   const double width_px = size_px_of(arguments, correlation_px);
   Chart chart;
   chart.width_px = width_px;
-  chart.height_px = 0.5 * width_px;
+  chart.height_px = correlation_shape * width_px;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const PairCorrelation mean = mean_correlation(groups[g], options, control);
-    Series series = series_for(groups[g], g, groups.size());
+    Series series = curve_of(groups, g);
     for (std::size_t k = 0; k < mean.g.size(); ++k) {
       series.x.push_back(mean.middle(k));
       series.y.push_back(mean.g[k]);
@@ -151,21 +143,20 @@ Drawing make_distributions(std::span<const PictureGroup> groups, const Arguments
   for (const Quantity& quantity : quantities) {
     Chart chart;
     chart.width_px = width_px;
-    chart.height_px = 0.7 * width_px;
+    chart.height_px = histogram_shape * width_px;
     chart.legend = false;
     chart.x = axis_of(all, quantity);
     const std::size_t together =
         quantity.whole ? 1 : bins_together(chart.x, (all[0].*quantity.histogram).width);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      chart.series.push_back(
-          steps_of(all[g].*quantity.histogram, together, series_for(groups[g], g, groups.size())));
+      chart.series.push_back(steps_of(all[g].*quantity.histogram, together, curve_of(groups, g)));
       if (groups.size() > most_filled) chart.series.back().fill = 0;
     }
     chart.y = {0, round_high(chart.series, 1e-6, 1e6), quantity.whole ? "share" : "density"};
     legend = chart.series;
     charts.push_back(draw(std::move(chart)));
   }
-  Drawing sheet = with_legend(grid_of(std::move(charts), 3, panel_gap_px), legend);
+  Drawing sheet = with_legend(grid_of(std::move(charts), columns, panel_gap_px), legend);
   sheet.title = "distributions of beta_i, valences, angles, edges, nearest distances and cell areas";
   return with_margin(with_caption(std::move(sheet), groups.size() == 1 ? groups[0].label : ""), 16);
 }
@@ -181,9 +172,11 @@ Picture pair_correlation_picture() {
   picture.parameters.push_back(size_parameter(correlation_px, least_chart_px));
   picture.make = make_pair_correlation;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
-    const PairCorrelationOptions options = pair_correlation_options(arguments);
-    const double pairs = 1.9 * options.reach * options.reach * size.n;
-    return Cost{size.sets * (1e-8 * pairs + 1e-7 * size.n), 40 * size.n + 60.0 * options.bins * size.sets};
+    return pair_correlation_cost(size, pair_correlation_options(arguments));
+  };
+  picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
+    const double width_px = size_px_of(arguments, correlation_px);
+    return sheet_of(chart_size(width_px, correlation_shape * width_px), 1, 1);
   };
   picture.needs_torus = true;
   return picture;
@@ -200,6 +193,10 @@ Picture distributions_picture() {
   picture.make = make_distributions;
   picture.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{3e-6 * size.n * size.sets, 500 * size.n};
+  };
+  picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
+    const double width_px = size_px_of(arguments, histogram_px);
+    return sheet_of(chart_size(width_px, histogram_shape * width_px), std::size(quantities), columns);
   };
   return picture;
 }

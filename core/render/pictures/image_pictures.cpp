@@ -13,7 +13,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr double plate_px = 500, domain_px = 380;
+constexpr double plate_px = 500, domain_px = 380, domain_shape = 0.45, numbers_px = 28;
 
 /// Rows from the top, of values whose row 0 is at the bottom.
 Raster upright(std::size_t columns, std::size_t rows, const std::vector<double>& values) {
@@ -73,6 +73,24 @@ Drawing make_zone_plate(std::span<const PictureGroup> groups, const Arguments& a
       16);
 }
 
+/// Of plates with the most pixels that their groups' points have.
+SheetSize plate_sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  const double size_px = size_px_of(arguments, plate_px);
+  const auto asked = zone_plate_options(arguments).columns;
+  constexpr double numbers_width_px = 210;
+  SheetSize panel{numbers_width_px, 0};
+  for (const SetsSize& group : groups) {
+    const double mean = std::round(std::sqrt(group.n / group.height_over_width)),
+                 most = ZonePlateOptions::most_columns,
+                 columns = asked ? *asked : std::clamp(mean, 1.0, most);
+    const double rows = std::max(1.0, std::round(columns * group.height_over_width)),
+                 across = std::max(columns, rows), side_px = image_side_px(size_px, across);
+    panel.width_px = std::max(panel.width_px, side_px * columns / across);
+    panel.height_px = std::max(panel.height_px, side_px * rows / across + numbers_px);
+  }
+  return sheet_of(panel, groups.size(), columns_of(groups.size()));
+}
+
 // ---- differential domain
 
 DifferentialDomain mean_domain(const PictureGroup& group, const DifferentialOptions& options,
@@ -85,10 +103,8 @@ DifferentialDomain mean_domain(const PictureGroup& group, const DifferentialOpti
 
 Drawing domain_image(const DifferentialDomain& d, double size_px) {
   const auto side = static_cast<std::size_t>(d.size);
-  const double whole = std::max(1.0, std::round(size_px / static_cast<double>(side)));
   Chart chart;
-  chart.width_px = chart.height_px =
-      size_px < static_cast<double>(side) ? size_px : whole * static_cast<double>(side);
+  chart.width_px = chart.height_px = image_side_px(size_px, static_cast<double>(side));
   chart.x = {-d.reach, d.reach, "d_x / d_{hex}"};
   chart.y = {-d.reach, d.reach, "d_y / d_{hex}"};
   chart.image = colored(upright(side, side, d.density), map_gray, 0, 3);
@@ -98,7 +114,7 @@ Drawing domain_image(const DifferentialDomain& d, double size_px) {
 Drawing domain_curve(const DifferentialDomain& d, double size_px, double high) {
   Chart chart;
   chart.width_px = size_px;
-  chart.height_px = 0.45 * size_px;
+  chart.height_px = domain_shape * size_px;
   Series series;
   series.x = d.r;
   series.y = d.mean;
@@ -123,7 +139,7 @@ Drawing make_differential(std::span<const PictureGroup> groups, const Arguments&
   std::vector<Drawing> panels;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     Drawing image = domain_image(domains[g], size_px);
-    Drawing curve = domain_curve(domains[g], image.width_px - 78, high);
+    Drawing curve = domain_curve(domains[g], image.width_px - beside_frame_px, high);
     Drawing panel = stack_of({std::move(image), std::move(curve)}, 6);
     panel.title = "differential domain of " + std::to_string(groups[g].sets.front().size()) + " points";
     panels.push_back(with_caption(std::move(panel), groups[g].label));
@@ -132,6 +148,14 @@ Drawing make_differential(std::span<const PictureGroup> groups, const Arguments&
       map_gray, {0, 3, "density (white noise: 1)", {{0, "0"}, {1, "1"}, {2, "2"}, {3, "≥ 3"}}}, 220);
   return with_margin(
       stack_of({grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), std::move(bar)}, 8), 16);
+}
+
+SheetSize domain_sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  const double side_px =
+      image_side_px(size_px_of(arguments, domain_px), differential_options(arguments).pixels);
+  SheetSize panel = chart_size(side_px, side_px);
+  panel.height_px += chart_size(side_px, domain_shape * side_px).height_px;
+  return sheet_of(panel, groups.size(), columns_of(groups.size()));
 }
 
 }  // namespace
@@ -151,6 +175,7 @@ Picture zone_plate_picture() {
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return zone_plate_cost(size.n, size.height_over_width, zone_plate_options(arguments));
   };
+  picture.sheet = plate_sheet;
   picture.check = [](const Domain& domain, double n, const Arguments& arguments) {
     require_options(zone_plate_options(arguments), domain, static_cast<std::size_t>(n));
   };
@@ -173,6 +198,7 @@ Picture differential_picture() {
     const Cost one = differential_cost(size.n, differential_options(arguments));
     return Cost{size.sets * one.seconds, (1 + size.sets / 8) * one.bytes};
   };
+  picture.sheet = domain_sheet;
   picture.check = [](const Domain&, double, const Arguments& arguments) {
     require_options(differential_options(arguments));
   };

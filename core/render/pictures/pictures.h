@@ -21,6 +21,11 @@ struct PictureGroup {
   const Sizing* sizing = nullptr;  ///< that the sets were made for; may be missing
 };
 
+/// Of a sheet, in its own pixels.
+struct SheetSize {
+  double width_px = 0, height_px = 0;
+};
+
 /// One kind of picture.
 struct Picture : Method {
   /// Several groups are drawn side by side, or as several curves. The sets and the control must outlive what
@@ -28,6 +33,9 @@ struct Picture : Method {
   /// cancelled, deadline_exceeded. Determinism: the same bytes on any number of threads.
   Drawing (*make)(std::span<const PictureGroup>, const Arguments&, const Control&) = nullptr;
   Cost (*cost)(const SetsSize&, const Arguments&) = nullptr;  ///< of one group, about
+  /// About how large the sheet of these groups is, known before they are: the pixels are at most a quarter
+  /// more or less where they are many.
+  SheetSize (*sheet)(std::span<const SetsSize>, const Arguments&) = nullptr;
   /// What can be refused of the parameters before the work; same errors as `make`.
   void (*check)(const Domain&, double n, const Arguments&) = nullptr;
   bool draws_each_point = false;

@@ -221,12 +221,30 @@ std::string caption_of(const PictureGroup& group, std::size_t set, std::size_t s
   return (group.label.empty() ? "set " : group.label + ", set ") + std::to_string(set + 1);
 }
 
+/// How many sets of each group are shown.
+std::size_t sets_each_of(std::size_t groups, std::size_t sets) {
+  return groups == 1 ? std::min(most_panels, sets) : 1;
+}
+
+SheetSize sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  const std::size_t panels =
+      groups.size() * sets_each_of(groups.size(), static_cast<std::size_t>(groups[0].sets));
+  const double size_px = size_px_of(arguments, panels == 1 ? alone_px : beside_px);
+  constexpr double numbers_px = 28, numbers_width_px = 170;
+  SheetSize panel{numbers_width_px, 0};
+  for (const SetsSize& group : groups) {
+    panel.width_px = std::max(panel.width_px, size_px * std::min(1.0, 1 / group.height_over_width));
+    panel.height_px =
+        std::max(panel.height_px, size_px * std::min(1.0, group.height_over_width) + numbers_px);
+  }
+  return sheet_of(panel, panels, columns_of(panels));
+}
+
 /// Of one group all sets, of several the first of each.
 Drawing make(Kind kind, std::span<const PictureGroup> groups, const Arguments& arguments,
              const Control& control) {
-  std::size_t panels = groups.size();
-  const std::size_t sets_each = groups.size() == 1 ? std::min(most_panels, groups[0].sets.size()) : 1;
-  panels *= sets_each;
+  const std::size_t sets_each = sets_each_of(groups.size(), groups[0].sets.size());
+  const std::size_t panels = groups.size() * sets_each;
   const double size_px = size_px_of(arguments, panels == 1 ? alone_px : beside_px);
   const auto choice = static_cast<std::size_t>(argument(arguments, "color").value_or(0));
   const std::optional<LocalMeasure> color =
@@ -270,6 +288,7 @@ Picture row(const char* name, const char* title, const char* description) {
     const double panels = size.alone ? std::min<double>(most_panels, size.sets) : 1;
     return Cost{3e-5 * size.n * panels, 1000 * size.n * panels};
   };
+  picture.sheet = sheet;
   return picture;
 }
 

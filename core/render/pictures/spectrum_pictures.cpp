@@ -4,6 +4,7 @@
 
 #include "core/analyze/spectrum.h"
 #include "core/math.h"
+#include "core/registry_measures.h"
 #include "core/render/chart.h"
 #include "core/render/pictures/rows.h"
 #include "core/render/raster.h"
@@ -11,22 +12,13 @@
 namespace wellspaced {
 namespace {
 
+constexpr double power_shape = 0.48, anisotropy_shape = 0.3;  // height over width
 constexpr double image_range = 2.5, curve_range = 3, image_px = 420, curves_px = 440, overview_px = 340;
 /// What the oscillations need; not worth it for the largest sets.
 constexpr double full_range = 6.5, most_in_full = 3000;
 
-Parameter range_parameter(double fallback) {
-  Parameter p;
-  p.name = "range";
-  p.description = "largest frequency that is shown, in units of sqrt(n / A)";
-  p.minimum = 0.5;
-  p.maximum = 20;
-  p.fallback = number_label(fallback, 3);
-  return p;
-}
-
-double range_of(const Arguments& arguments, double fallback) {
-  return argument(arguments, "range").value_or(fallback);
+Parameter shown_range(double fallback) {
+  return range_parameter("largest frequency that is shown, in units of sqrt(n / A)", 0.5, 20, fallback);
 }
 
 std::string sets_text(std::size_t sets) { return std::to_string(sets) + (sets == 1 ? " set" : " sets"); }
@@ -58,10 +50,10 @@ Raster shown(const Periodogram& p, double range, double size_px) {
 Drawing periodogram_panel(const PictureGroup& group, double range, double size_px, const Control& control) {
   const Periodogram mean = mean_periodogram(group.sets, range, control);
   const Raster raster = shown(mean, range, size_px);
-  const double whole = std::max(1.0, std::round(size_px / static_cast<double>(raster.columns)));
   const bool square = raster.columns == raster.rows;
   Chart chart;
-  chart.width_px = chart.height_px = square ? whole * static_cast<double>(raster.columns) : size_px;
+  chart.width_px = chart.height_px =
+      square ? image_side_px(size_px, static_cast<double>(raster.columns)) : size_px;
   chart.x = {-range, range, "k_x / √(n/A)"};
   chart.y = {-range, range, "k_y / √(n/A)"};
   chart.image = colored(raster, map_gray, 0, 3);
@@ -81,6 +73,23 @@ Drawing make_periodogram(std::span<const PictureGroup> groups, const Arguments& 
       color_bar(map_gray, {0, 3, "power (white noise: 1)", {{0, "0"}, {1, "1"}, {2, "2"}, {3, "≥ 3"}}}, 220);
   return with_margin(
       stack_of({grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), std::move(bar)}, 8), 16);
+}
+
+/// The largest frame of all groups.
+double periodogram_side_px(std::span<const SetsSize> groups, double range, double size_px) {
+  double side_px = 0;
+  for (const SetsSize& group : groups) {
+    const double frequencies = std::max(1.0, std::round(2 * range * std::sqrt(group.n)));
+    side_px = std::max(side_px,
+                       group.aspect == 1 ? image_side_px(size_px, std::min(frequencies, size_px)) : size_px);
+  }
+  return side_px;
+}
+
+SheetSize periodogram_sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  const double side_px =
+      periodogram_side_px(groups, range_of(arguments, image_range), size_px_of(arguments, image_px));
+  return sheet_of(chart_size(side_px, side_px), groups.size(), columns_of(groups.size()));
 }
 
 // ---- the curves
@@ -158,7 +167,7 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& l
   const double peak = peak_of(s);
   Chart power;
   power.width_px = width_px;
-  power.height_px = 0.48 * width_px;
+  power.height_px = power_shape * width_px;
   power.x = {0, limits.range, "frequency / √(n/A)"};
   power.y = {0, limits.power, "radial mean power"};
   power.series = {std::move(curves.power)};
@@ -167,7 +176,7 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& l
   if (nyquist) power.references.push_back({*nyquist, std::nullopt, "ν_{eff}"});
   Chart anisotropy;
   anisotropy.width_px = width_px;
-  anisotropy.height_px = 0.3 * width_px;
+  anisotropy.height_px = anisotropy_shape * width_px;
   anisotropy.x = power.x;
   const double expected = expected_db(group);
   const double lowest = limits.db_low;
@@ -188,6 +197,18 @@ Drawing spectrum_panel(const PictureGroup& group, Curves curves, const Limits& l
   panel.title =
       "radial mean power and anisotropy of " + std::to_string(group.sets.front().size()) + " points";
   return with_caption(std::move(panel), group.label);
+}
+
+/// Of such a panel.
+SheetSize curves_size(double width_px) {
+  constexpr double numbers_px = 36;
+  const SheetSize power = chart_size(width_px, power_shape * width_px),
+                  anisotropy = chart_size(width_px, anisotropy_shape * width_px);
+  return {power.width_px, power.height_px + anisotropy.height_px + numbers_px};
+}
+
+SheetSize spectrum_sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  return sheet_of(curves_size(size_px_of(arguments, curves_px)), groups.size(), columns_of(groups.size()));
 }
 
 /// The curves of all groups, on axes that all of them fit on, each drawn by panel(group, curves, limits).
@@ -218,15 +239,17 @@ Drawing make_spectrum(std::span<const PictureGroup> groups, const Arguments& arg
 
 // ---- everything at once
 
+constexpr double narrower_px = 90;  // the curves' frames than what is above them
+
 /// Points and periodogram side by side, the curves below: one row of both for each group.
 Drawing overview_panel(const PictureGroup& group, Curves curves, const Limits& limits, double size_px,
                        const Control& control) {
   Drawing image = periodogram_panel({"", group.sets, {}}, image_range, size_px, control);
-  constexpr double around_image_px = 78;  // of its axis and its right side
   Drawing points =
-      with_margin(plain_points(group.sets.front(), image.width_px - around_image_px, control), 12);
+      with_margin(plain_points(group.sets.front(), image.width_px - beside_frame_px, control), 12);
   Drawing above = grid_of({std::move(points), std::move(image)}, 2, 4);
-  Drawing below = spectrum_panel({"", group.sets, {}}, std::move(curves), limits, above.width_px - 90);
+  Drawing below =
+      spectrum_panel({"", group.sets, {}}, std::move(curves), limits, above.width_px - narrower_px);
   return with_caption(stack_of({std::move(above), std::move(below)}, 4), group.label);
 }
 
@@ -239,15 +262,14 @@ Drawing make_overview(std::span<const PictureGroup> groups, const Arguments& arg
                      });
 }
 
-}  // namespace
-
-Cost periodogram_cost(const SetsSize& size, double range) {
-  const double k_max = k_max_of(size.n, size.aspect, range);
-  if (!(k_max <= largest_k_max)) return {1e9, 1e30};
-  const auto bytes = periodogram_bytes(static_cast<std::size_t>(size.n), static_cast<int>(k_max), 8);
-  return {size.sets * (1e-6 * size.n + 4e-7 * k_max * k_max),
-          static_cast<double>(bytes) + 16 * k_max * k_max};
+SheetSize overview_sheet(std::span<const SetsSize> groups, const Arguments& arguments) {
+  const double side_px = periodogram_side_px(groups, image_range, size_px_of(arguments, overview_px));
+  const SheetSize image = chart_size(side_px, side_px), below = curves_size(2 * image.width_px - narrower_px);
+  return sheet_of({std::max(2 * image.width_px, below.width_px), image.height_px + below.height_px},
+                  groups.size(), columns_of(groups.size()));
 }
+
+}  // namespace
 
 Picture overview_picture() {
   Picture picture;
@@ -264,6 +286,7 @@ Picture overview_picture() {
                image = periodogram_cost(size, image_range);
     return Cost{curves.seconds + image.seconds + 3e-5 * size.n, 2 * std::max(curves.bytes, image.bytes)};
   };
+  picture.sheet = overview_sheet;
   picture.draws_each_point = true;
   picture.needs_torus = true;
   return picture;
@@ -274,12 +297,13 @@ Picture periodogram_picture() {
   picture.name = "periodogram";
   picture.title = "Periodogram";
   picture.description = "The power at each frequency as an image, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(image_range), size_parameter(image_px, least_chart_px)};
+  picture.parameters = {shown_range(image_range), size_parameter(image_px, least_chart_px)};
   picture.make = make_periodogram;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     const Cost cost = periodogram_cost(size, range_of(arguments, image_range));
     return Cost{cost.seconds, 2 * cost.bytes};  // and the image
   };
+  picture.sheet = periodogram_sheet;
   picture.needs_torus = true;
   return picture;
 }
@@ -289,11 +313,12 @@ Picture spectrum_picture() {
   picture.name = "spectrum";
   picture.title = "Radial mean power and anisotropy";
   picture.description = "Both curves of the periodogram, averaged over the sets of a group.";
-  picture.parameters = {range_parameter(curve_range), size_parameter(curves_px, least_chart_px)};
+  picture.parameters = {shown_range(curve_range), size_parameter(curves_px, least_chart_px)};
   picture.make = make_spectrum;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
     return periodogram_cost(size, computed_range(size.n, size.aspect, range_of(arguments, curve_range)));
   };
+  picture.sheet = spectrum_sheet;
   picture.needs_torus = true;
   return picture;
 }
