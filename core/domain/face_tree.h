@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace wellspaced {
+
+/// Triangles in a tree of boxes: which one is nearest to a point. Lines will do too, as triangles (a, b, b).
+///
+/// Cost: built in O(n log n), about .5 us a face; 150 bytes a face; a point on one is found in
+/// about .2 us.
+/// Thread safety: immutable after construction.
+class FaceTree {
+ public:
+  explicit FaceTree(std::span<const std::array<Vec3, 3>> triangles);
+
+  struct Nearest {
+    std::uint32_t face = 0;
+    std::array<double, 3> weights{};  ///< of its corners, at its point nearest to p
+    double distance2 = 0;             ///< squared, to that point
+  };
+  /// A face nearest to p, or any not farther than `enough`. The answer depends on nothing but the arguments.
+  Nearest nearest(Vec3 p, double enough = 0) const;
+
+  /// Calls use(face) for every face whose box meets the ball around p.
+  template <class Use>
+  void visit(Vec3 p, double radius, const Use& use) const {
+    std::vector<std::uint32_t> open{0};
+    while (!open.empty()) {
+      const Node node = nodes_[open.back()];
+      open.pop_back();
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (distance2(node.boxes[side], p) > radius * radius) continue;
+        if (node.count[side] == 0)
+          open.push_back(node.first[side]);
+        else
+          for (std::uint32_t k = 0; k < node.count[side]; ++k) use(triangles_[node.first[side] + k].face);
+      }
+    }
+  }
+
+ private:
+  struct Bounds {
+    Vec3 low, high;
+  };
+  struct Triangle {
+    Vec3 a, b, c;
+    std::uint32_t face;
+  };
+  /// Both halves of what it holds. count == 0: `first` is a node; else so many triangles from there.
+  struct Node {
+    Bounds boxes[2];
+    std::uint32_t first[2]{}, count[2]{};
+  };
+
+  static double distance2(const Bounds& box, Vec3 p);
+  static Bounds bounds_of(const Triangle& t);
+  Bounds bounds_of(std::size_t begin, std::size_t end) const;
+  void build(std::size_t node, std::size_t begin, std::size_t end);
+  void improve(std::uint32_t first, std::uint32_t count, Vec3 p, Nearest& best) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+/// Weights of the corners at the point of the triangle that is nearest to p. Requires: an area, or b == c.
+std::array<double, 3> nearest_weights(Vec3 a, Vec3 b, Vec3 c, Vec3 p);
+
+}  // namespace wellspaced
