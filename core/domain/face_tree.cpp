@@ -1,6 +1,7 @@
 #include "core/domain/face_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wellspaced {
@@ -43,8 +44,12 @@ std::array<double, 3> nearest_weights(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
 
 FaceTree::FaceTree(std::span<const std::array<Vec3, 3>> triangles) {
   triangles_.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles)
-    triangles_.push_back({a, b, c, static_cast<std::uint32_t>(triangles_.size())});
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3 normal = cross(b - a, c - a);
+    const double length = norm(normal);
+    triangles_.push_back({a, b, c, length > 0 ? (1 / length) * normal : Vec3{},
+                          static_cast<std::uint32_t>(triangles_.size())});
+  }
   nodes_.emplace_back();
   build(0, 0, triangles_.size());
 }
@@ -104,7 +109,29 @@ void FaceTree::improve(std::uint32_t first, std::uint32_t count, Vec3 p, Nearest
   }
 }
 
-FaceTree::Nearest FaceTree::nearest(Vec3 p, double enough) const {
+std::optional<FaceTree::Nearest> FaceTree::find(Vec3 p, double distance) const {
+  std::uint32_t open[most_levels];
+  std::size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[open[--count]];
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!node.boxes[side].holds(p, distance)) continue;
+      if (node.count[side] == 0) open[count++] = node.first[side];
+      for (std::uint32_t k = node.first[side]; k < node.first[side] + node.count[side]; ++k) {
+        // Most faces near p are not in its plane.
+        if (std::fabs(dot(triangles_[k].normal, p - triangles_[k].a)) > distance) continue;
+        Nearest found;
+        found.distance2 = std::numeric_limits<double>::infinity();
+        improve(k, 1, p, found);
+        if (found.distance2 <= distance * distance) return found;
+      }
+    }
+  }
+  return {};
+}
+
+FaceTree::Nearest FaceTree::nearest(Vec3 p) const {
   Nearest best;
   best.distance2 = std::numeric_limits<double>::infinity();
   struct Open {
@@ -114,7 +141,7 @@ FaceTree::Nearest FaceTree::nearest(Vec3 p, double enough) const {
   Open open[most_levels];
   std::size_t count = 0;
   open[count++] = {0, 0};
-  while (count > 0 && best.distance2 > enough * enough) {
+  while (count > 0) {
     const Open at = open[--count];
     if (at.distance2 >= best.distance2) continue;
     const Node& node = nodes_[at.node];
@@ -124,8 +151,7 @@ FaceTree::Nearest FaceTree::nearest(Vec3 p, double enough) const {
       if (node.count[side] > 0 && d2[side] < best.distance2)
         improve(node.first[side], node.count[side], p, best);
     for (const std::size_t side : {1 - near, near})
-      if (node.count[side] == 0 && d2[side] < best.distance2)
-        open[count++] = {node.first[side], d2[side]};
+      if (node.count[side] == 0 && d2[side] < best.distance2) open[count++] = {node.first[side], d2[side]};
   }
   return best;
 }

@@ -9,17 +9,16 @@
 namespace wellspaced {
 namespace {
 
-constexpr double nudge = 1e-9;         ///< how far, as weights, the apex keeps from the edges of its face
-constexpr double grazing = 1e-12;      ///< of a ray's length: passing a vertex or a target so closely is hitting it
+constexpr double nudge = 1e-9;  ///< how far, as weights, the apex keeps from the edges of its face
+constexpr double grazing =
+    1e-12;  ///< of a ray's length: passing a vertex or a target so closely is hitting it
 constexpr double no_angle = 1e-13;     ///< radians
 constexpr double improvement = 1e-14;  ///< relative, of a way that only rounding makes shorter
 
 double size1(Vec2 v) { return std::fabs(v.x) + std::fabs(v.y); }
 
 /// Where the ray from `apex` meets the line through a in direction e.
-Vec2 meet(Vec2 apex, Vec2 ray, Vec2 a, Vec2 e) {
-  return apex + (cross(a - apex, e) / cross(ray, e)) * ray;
-}
+Vec2 meet(Vec2 apex, Vec2 ray, Vec2 a, Vec2 e) { return apex + (cross(a - apex, e) / cross(ray, e)) * ray; }
 
 /// Squared distance from the apex to the part of an edge between two rays.
 double nearest2(Vec2 apex, Vec2 right, Vec2 edge, Vec2 right_ray, Vec2 left_ray) {
@@ -36,7 +35,7 @@ double nearest2(Vec2 apex, Vec2 right, Vec2 edge, Vec2 right_ray, Vec2 left_ray)
   return area * area / norm2(edge);
 }
 
-bool between(Vec2 right_ray, Vec2 left_ray, Vec2 v) {
+inline bool between(Vec2 right_ray, Vec2 left_ray, Vec2 v) {
   const double slack = -grazing * size1(v);
   return cross(right_ray, v) >= slack * size1(right_ray) && cross(v, left_ray) >= slack * size1(left_ray);
 }
@@ -79,14 +78,14 @@ void GeodesicSearch::hash_targets() {
 }
 
 bool GeodesicSearch::run_in_any_order() {
-  windows_.reserve(64);
-  bends_.assign(64, {});
+  windows_.reserve(32);
+  known_.assign(32, {});
   start();
   for (std::size_t count = 0; !windows_.empty(); ++count) {
     if (count == enough_windows) return false;
     const Window w = windows_.back();
     windows_.pop_back();
-    if (w.nearest <= limit_) go_on(w);
+    go_on(w);
   }
   return true;
 }
@@ -105,15 +104,17 @@ void GeodesicSearch::run_nearest_first() {
     queue_.pop_back();
     const Window w = windows_[slot];
     free_slots_.push_back(slot);
-    const bool outdated = w.vertex != none && w.before > vertex_distance_[w.vertex];
+    const bool outdated = w.half_edge == none && w.nearest > vertex_distance_[bends_[w.bend].vertex];
     if (!outdated) go_on(w);
   }
 }
 
 void GeodesicSearch::start() {
   const std::uint32_t h = 3 * base_.face;
+  bends_.assign(1, {});
   Window w;
-  for (std::uint32_t k = 0; k < 3; ++k) see_vertex(w, h + k, corners_[k], corners_[(k + 1) % 3] - corners_[k]);
+  for (std::uint32_t k = 0; k < 3; ++k)
+    see_vertex(w, h + k, corners_[k], corners_[(k + 1) % 3] - corners_[k]);
   enter(w, h, corners_);  // without rays, so all of it
   for (std::uint32_t k = 0; k < 3; ++k) {
     w.half_edge = h + k;
@@ -126,24 +127,25 @@ void GeodesicSearch::start() {
 }
 
 void GeodesicSearch::go_on(const Window& w) {
-  if (w.vertex == none) {
+  if (w.half_edge != none) {
     cross_edge(w);
     return;
   }
-  const double around = unfolding_->angle_around(w.vertex);
-  if (mesh_->at_border(w.vertex)) {
-    leave(w, 0, w.back - pi);
-    leave(w, w.back + pi, around);
+  const auto [before, first, vertex, back] = bends_[w.bend];
+  const double around = unfolding_->angle_around(vertex);
+  if (mesh_->at_border(vertex)) {
+    leave(w.bend, 0, back - pi);
+    leave(w.bend, back + pi, around);
   } else {
-    leave(w, w.back + pi, w.back + around - pi);
-    leave(w, w.back + pi - around, w.back - pi);
+    leave(w.bend, back + pi, back + around - pi);
+    leave(w.bend, back + pi - around, back - pi);
   }
 }
 
 void GeodesicSearch::cross_edge(const Window& w) {
   const std::uint32_t h = mesh_->twin(w.half_edge);  // from left to right
   if (h == none) {
-    if (border_ == Border::look && w.direct) {
+    if (border_ == Border::look && w.bend == 0) {
       const Vec2 edge = w.left - w.right;
       views_.push_back({meet(apex_, w.right_ray, w.right, edge), meet(apex_, w.left_ray, w.right, edge)});
     }
@@ -154,17 +156,12 @@ void GeodesicSearch::cross_edge(const Window& w) {
   if (between(w.right_ray, w.left_ray, to)) see_vertex(w, TriangleMesh::previous(h), tip, w.left - tip);
   const bool right_of_tip = cross(w.right_ray, to) > 0, left_of_tip = cross(to, w.left_ray) > 0;
   if (right_of_tip) {
-    Window child = w;
-    child.half_edge = TriangleMesh::next(h);
-    child.left = tip;
-    if (left_of_tip) child.left_ray = to;
+    Window child{TriangleMesh::next(h), w.bend, w.right, tip, w.right_ray, left_of_tip ? to : w.left_ray, 0};
     push(child, w.left);
   }
   if (left_of_tip) {
-    Window child = w;
-    child.half_edge = TriangleMesh::previous(h);
-    child.right = tip;
-    if (right_of_tip) child.right_ray = to;
+    Window child{TriangleMesh::previous(h),       w.bend,     tip, w.left,
+                 right_of_tip ? to : w.right_ray, w.left_ray, 0};
     push(child, w.right);
   }
 }
@@ -178,14 +175,15 @@ void GeodesicSearch::enter(const Window& w, std::uint32_t h, const std::array<Ve
     if (faces_with_targets_[slot][0] == none) return;
     slot = (slot + 1) & mask;
   }
+  const Bend& bend = bends_[w.bend];
   for (std::uint32_t k = faces_with_targets_[slot][1]; k != none; k = targets_[k].next) {
     const auto& weights = targets_[k].place.weights;
     const std::size_t first = h % 3;
     const Vec2 at = weights[first] * corners[0] + weights[(first + 1) % 3] * corners[1] +
                     weights[(first + 2) % 3] * corners[2];
     if (!between(w.right_ray, w.left_ray, at - apex_of(w))) continue;
-    const double distance = w.before + norm(at);
-    improve(targets_[k], distance, w.direct ? at : distance * w.first);
+    const double distance = bend.before + norm(at);
+    improve(targets_[k], distance, w.bend == 0 ? at : distance * bend.first);
   }
 }
 
@@ -202,12 +200,14 @@ void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {
 /// The origin of h lies `at` there, in sight, and h leads `along` from it.
 void GeodesicSearch::see_vertex(const Window& w, std::uint32_t h, Vec2 at, Vec2 along) {
   const std::uint32_t vertex = mesh_->origin(h);
-  if (!nearest_first_ && !unfolding_->bends_ways(vertex)) return;
-  const double distance = w.before + norm(at);
-  if (distance > limit_ || !is_news(vertex, distance) || !unfolding_->bends_ways(vertex)) return;
+  const bool bends = unfolding_->bends_ways(vertex);
+  if (!bends && !nearest_first_) return;
+  const double distance = bends_[w.bend].before + norm(at);
+  if (distance > limit_ || !is_news(vertex, distance) || !bends) return;
   const Vec2 back = apex_of(w) - at;
   const double angle = std::max(0.0, portable_atan2(cross(along, back), dot(along, back)));
-  bend_at(vertex, unfolding_->angle_to(h) + angle, distance, w.direct ? (-1 / norm(back)) * back : w.first);
+  add({distance, w.bend == 0 ? (-1 / norm(back)) * back : bends_[w.bend].first, vertex,
+       unfolding_->angle_to(h) + angle});
 }
 
 /// Whether no way as short to the vertex is known so far; it is then.
@@ -217,42 +217,39 @@ bool GeodesicSearch::is_news(std::uint32_t vertex, double distance) {
     vertex_distance_[vertex] = distance;
     return true;
   }
-  Bend* bend = find_bend(vertex);
-  if (distance >= bend->distance * (1 - improvement)) return false;
-  if (bend->vertex == none && 2 * ++bend_count_ > bends_.size()) {
-    std::vector<Bend> all(4 * bends_.size());
-    all.swap(bends_);
-    for (const Bend& old : all)
-      if (old.vertex != none) *find_bend(old.vertex) = old;
-    bend = find_bend(vertex);
+  Known* known = find_known(vertex);
+  if (distance >= known->distance * (1 - improvement)) return false;
+  if (known->vertex == none && 2 * ++known_count_ > known_.size()) {
+    std::vector<Known> all(4 * known_.size());
+    all.swap(known_);
+    for (const Known& old : all)
+      if (old.vertex != none) *find_known(old.vertex) = old;
+    known = find_known(vertex);
   }
-  *bend = {vertex, distance};
+  *known = {vertex, distance};
   return true;
 }
 
 /// The vertex's entry, or the empty one that it may have.
-GeodesicSearch::Bend* GeodesicSearch::find_bend(std::uint32_t vertex) {
-  const std::size_t mask = bends_.size() - 1;
+GeodesicSearch::Known* GeodesicSearch::find_known(std::uint32_t vertex) {
+  const std::size_t mask = known_.size() - 1;
   std::size_t slot = hash(vertex, mask);
-  while (bends_[slot].vertex != none && bends_[slot].vertex != vertex) slot = (slot + 1) & mask;
-  return &bends_[slot];
+  while (known_[slot].vertex != none && known_[slot].vertex != vertex) slot = (slot + 1) & mask;
+  return &known_[slot];
 }
 
-void GeodesicSearch::bend_at(std::uint32_t vertex, double back, double before, Vec2 first) {
-  Window bend;
-  bend.vertex = vertex;
-  bend.direct = false;
-  bend.before = before;
-  bend.first = first;
-  bend.back = back;
-  bend.nearest = before;
-  put(bend);
+void GeodesicSearch::add(const Bend& bend) {
+  Window w;
+  w.bend = static_cast<std::uint32_t>(bends_.size());
+  w.nearest = bend.before;
+  bends_.push_back(bend);
+  put(w);
 }
 
 /// Goes on from a vertex in the directions between two angles around it, as far as there are faces.
-void GeodesicSearch::leave(const Window& bend, double low, double high) {
+void GeodesicSearch::leave(std::uint32_t bend, double low, double high) {
   if (high < low || high < 0) return;
-  std::uint32_t h = mesh_->first_out(bend.vertex);
+  std::uint32_t h = mesh_->first_out(bends_[bend].vertex);
   const std::uint32_t first = h;
   do {
     const double begin = unfolding_->angle_to(h), size = unfolding_->angle_at(h);
@@ -262,11 +259,11 @@ void GeodesicSearch::leave(const Window& bend, double low, double high) {
 }
 
 /// The same in the face of h, which starts at the vertex; angles from h.
-void GeodesicSearch::leave_through(const Window& bend, std::uint32_t h, double low, double high) {
+void GeodesicSearch::leave_through(std::uint32_t bend, std::uint32_t h, double low, double high) {
   const std::uint32_t after = TriangleMesh::next(h), last = TriangleMesh::previous(h);
-  Window w = bend;
-  w.vertex = none;
+  Window w;
   w.half_edge = after;
+  w.bend = bend;
   w.right = {norm(mesh_->vertices()[mesh_->target(h)] - mesh_->vertices()[mesh_->origin(h)]), 0};
   w.left = unfolding_->tip(h, {}, w.right);
   const auto ray = [](double angle) {
@@ -279,34 +276,40 @@ void GeodesicSearch::leave_through(const Window& bend, std::uint32_t h, double l
   enter(w, h, {Vec2{}, w.right, w.left});
   push(w, {});
   if (whole_right)
-    follow_edge(mesh_->origin(after), unfolding_->angle_to(after) + unfolding_->angle_at(after), w, norm(w.right));
+    follow_edge(mesh_->origin(after), unfolding_->angle_to(after) + unfolding_->angle_at(after), w,
+                norm(w.right));
   if (whole_left) follow_edge(mesh_->origin(last), unfolding_->angle_to(last), w, norm(w.left));
 }
 
 /// To the vertex at the other end of an edge out of a bend.
 void GeodesicSearch::follow_edge(std::uint32_t vertex, double back, const Window& w, double length) {
-  const double distance = w.before + length;
+  const auto [before, first, from, unused] = bends_[w.bend];
   const bool bends = unfolding_->bends_ways(vertex);
-  if (distance > limit_ || !(bends || nearest_first_)) return;
-  if (is_news(vertex, distance) && bends) bend_at(vertex, back, distance, w.first);
+  if (before + length > limit_ || !(bends || nearest_first_)) return;
+  if (is_news(vertex, before + length) && bends) add({before + length, first, vertex, back});
 }
 
 /// Keeps the window if it can matter; `across`: the third corner of the face that it leaves.
 void GeodesicSearch::push(Window& w, Vec2 across) {
   const Vec2 edge = w.left - w.right;
-  w.nearest = w.before + std::sqrt(nearest2(apex_of(w), w.right, edge, w.right_ray, w.left_ray));
-  if (!(w.nearest <= limit_)) return;
-  if (nearest_first_ && cannot_be_shortest(w, across)) return;
+  const double d2 = nearest2(apex_of(w), w.right, edge, w.right_ray, w.left_ray);
+  const double before = bends_[w.bend].before, left = limit_ - before;
+  if (!(left >= 0 && d2 <= left * left)) return;
+  if (nearest_first_) {
+    if (cannot_be_shortest(w, across)) return;
+    w.nearest = before + std::sqrt(d2);
+  }
   put(w);
 }
 
-/// Where a way over a corner of the face to the far end of the window is shorter than the window's, so is one to
-/// each of its points.
+/// Where a way over a corner of the face to the far end of the window is shorter than the window's, so is one
+/// to each of its points.
 bool GeodesicSearch::cannot_be_shortest(const Window& w, Vec2 across) const {
   const Vec2 from = apex_of(w), edge = w.left - w.right;
   const Vec2 right = meet(from, w.right_ray, w.right, edge), left = meet(from, w.left_ray, w.right, edge);
-  const double most_right = (w.before + norm(right)) * (1 - grazing);  // not from the apex, as all distances
-  const double most_left = (w.before + norm(left)) * (1 - grazing);
+  const double before = bends_[w.bend].before;
+  const double most_right = (before + norm(right)) * (1 - grazing);  // not from the apex, as all distances
+  const double most_left = (before + norm(left)) * (1 - grazing);
   const auto by = [&](std::uint32_t h, Vec2 corner, Vec2 end) {
     return vertex_distance_[mesh_->origin(h)] + norm(end - corner);
   };

@@ -21,12 +21,12 @@ namespace wellspaced {
 ///
 /// Guarantees: distances are exact but for rounding, about 1e-14 a face on the way. Chart vectors lead along
 /// the first straight part of the way, and are as long as all of it. Cost: about 20 ns a window; while faces
-/// are no smaller than `reach`, there are about two a face within reach, and (reach over the size of faces) times more
-/// beyond. Where there are more than `enough_windows` it starts anew with the nearest window first, dropping those that
-/// can't be on a shortest way: about .3 us each.
-/// Determinism: depends on arguments only, in the order in which targets were added.
-/// Reference: Mitchell, Mount and Papadimitriou 1987; Chen and Han 1990; Xin and Wang, "Improving Chen and Han's
-/// algorithm on the discrete geodesic problem", 2009 (the filter).
+/// are no smaller than `reach`, there are about two a face within reach, and (reach over the size of faces)
+/// times more beyond. Where there are more than `enough_windows` it starts anew with the nearest window
+/// first, dropping those that can't be on a shortest way: about .3 us each. Determinism: depends on arguments
+/// only, in the order in which targets were added. Reference: Mitchell, Mount and Papadimitriou 1987; Chen
+/// and Han 1990; Xin and Wang, "Improving Chen and Han's algorithm on the discrete geodesic problem", 2009
+/// (the filter).
 class GeodesicSearch {
  public:
   static constexpr double unreached = std::numeric_limits<double>::infinity();
@@ -56,17 +56,21 @@ class GeodesicSearch {
   static constexpr std::uint32_t none = ~0u;
   static constexpr std::size_t enough_windows = 20000;
 
+  /// How a way came to the place where it bent last: to the base itself, or over a vertex.
+  struct Bend {
+    double before = 0;            ///< length of the way to here
+    Vec2 first;                   ///< unit vector of the way at the base
+    std::uint32_t vertex = none;  ///< none: the base
+    double back = 0;              ///< angle around the vertex to where the way came from
+  };
   /// The part of a half-edge (from `right` to `left`, its face towards the apex) between two rays out of the
   /// apex. Positions are in the base's chart, or relative to the vertex where the way to here bent last.
-  /// Or such a vertex itself, still to be left.
+  /// Without half-edge: that vertex, still to be left.
   struct Window {
-    std::uint32_t half_edge = 0, vertex = none;
-    bool direct = true;  ///< no bend so far
+    std::uint32_t half_edge = none;
+    std::uint32_t bend = 0;  ///< index; 0: none, the base is in sight
     Vec2 right, left, right_ray, left_ray;
-    double before = 0;   ///< length of the way to the last bend
-    Vec2 first;          ///< unit vector of the way at the base, if it bent
-    double back = 0;     ///< of a vertex: angle around it to where the way came from
-    double nearest = 0;  ///< length of the shortest way to here
+    double nearest = 0;  ///< length of the shortest way to here; nearest first only
   };
   struct Queued {
     double nearest;
@@ -77,12 +81,12 @@ class GeodesicSearch {
       return a.nearest != b.nearest ? a.nearest > b.nearest : a.order > b.order;
     }
   };
-  struct Bend {
+  struct Known {
     std::uint32_t vertex = none;
     double distance = unreached;
   };
 
-  Vec2 apex_of(const Window& w) const { return w.direct ? apex_ : Vec2{}; }
+  Vec2 apex_of(const Window& w) const { return w.bend == 0 ? apex_ : Vec2{}; }
   void hash_targets();
   void start();
   void go_on(const Window& w);
@@ -91,10 +95,10 @@ class GeodesicSearch {
   void improve(Target& target, double distance, Vec2 vector);
   void see_vertex(const Window& w, std::uint32_t h, Vec2 at, Vec2 along);
   bool is_news(std::uint32_t vertex, double distance);
-  Bend* find_bend(std::uint32_t vertex);
-  void bend_at(std::uint32_t vertex, double back, double before, Vec2 first);
-  void leave(const Window& bend, double low, double high);
-  void leave_through(const Window& bend, std::uint32_t h, double low, double high);
+  Known* find_known(std::uint32_t vertex);
+  void add(const Bend& bend);
+  void leave(std::uint32_t bend, double low, double high);
+  void leave_through(std::uint32_t bend, std::uint32_t h, double low, double high);
   void follow_edge(std::uint32_t vertex, double back, const Window& w, double length);
   void push(Window& w, Vec2 across);
   bool cannot_be_shortest(const Window& w, Vec2 across) const;
@@ -118,8 +122,9 @@ class GeodesicSearch {
   std::vector<Queued> queue_;
   std::vector<std::uint32_t> free_slots_;
   std::uint64_t pushed_ = 0;
-  std::vector<Bend> bends_;  ///< a hash table: shortest ways to vertices where ways bend, so far
-  std::size_t bend_count_ = 0;
+  std::vector<Bend> bends_;
+  std::vector<Known> known_;  ///< a hash table: shortest ways so far to vertices where ways bend
+  std::size_t known_count_ = 0;
   std::vector<double> vertex_distance_;  ///< the same for all vertices; nearest first only
 };
 

@@ -153,7 +153,7 @@ bool MeshBorder::may_be_near(const MeshPlace& place, Vec3 p, double reach) const
     const double known = vertex_distance_[mesh_->faces()[place.face][static_cast<std::size_t>(k)]];
     if (known - norm(p - mesh_->corner(place.face, k)) > reach) return false;
   }
-  return tree_->nearest(p, reach).distance2 <= reach * reach;
+  return tree_->find(p, reach).has_value();
 }
 
 }  // namespace wellspaced

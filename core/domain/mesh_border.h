@@ -12,8 +12,8 @@
 
 namespace wellspaced {
 
-/// The border of a mesh as curves between its corners: vertices where it turns by more than 45 degrees, on the
-/// unfolded faces.
+/// The border of a mesh as curves between its corners: vertices where it turns by more than 45 degrees, on
+/// the unfolded faces.
 ///
 /// Thread safety: immutable after construction.
 class MeshBorder {

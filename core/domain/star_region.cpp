@@ -9,10 +9,10 @@
 namespace wellspaced {
 namespace {
 
-constexpr double widest = pi / 3;     ///< of a triangle whose far side is out of reach
-constexpr double far = 2;             ///< reaches to its corners
-constexpr double no_angle = 1e-9;     ///< radians
-constexpr double no_height = 1e-8;    ///< of a triangle, in reaches
+constexpr double widest = pi / 3;   ///< of a triangle whose far side is out of reach
+constexpr double far = 2;           ///< reaches to its corners
+constexpr double no_angle = 1e-9;   ///< radians
+constexpr double no_height = 1e-8;  ///< of a triangle, in reaches
 
 /// The angles that a view covers, counter-clockwise.
 struct Sector {

@@ -11,8 +11,8 @@ struct BorderView {
   Vec2 right, left;
 };
 
-/// What can be seen from a place in a chart up to the border, and beyond `reach` where that is not in the way:
-/// triangles with a corner at the apex, which don't overlap.
+/// What can be seen from a place in a chart up to the border, and beyond `reach` where that is not in the
+/// way: triangles with a corner at the apex, which don't overlap.
 ///
 /// Requires: views don't overlap. Cost: O(views log views), about .1 us a view.
 ChartPieces star_region(Vec2 apex, std::span<const BorderView> views, double reach);

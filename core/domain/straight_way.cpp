@@ -5,7 +5,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr double nudge = 1e-9;      ///< how far, as weights, the way starts from edges
+constexpr double nudge = 1e-9;  ///< how far, as weights, the way starts from edges
 constexpr int most_faces = 1000000;
 
 /// `corners` from the origin of h on.
@@ -28,7 +28,9 @@ StraightWay go_straight(const Unfolding& unfolding, const MeshPlace& base, Vec2 
   const Vec2 way = u - start;
   std::uint32_t h = 3 * base.face;
   std::size_t out = 0;
-  while (out < 2 && !(cross(way, corners[out] - start) <= 0 && cross(way, corners[(out + 1) % 3] - start) > 0)) ++out;
+  while (out < 2 &&
+         !(cross(way, corners[out] - start) <= 0 && cross(way, corners[(out + 1) % 3] - start) > 0))
+    ++out;
   for (int count = 0; count < most_faces; ++count) {
     // `corners` belong to the face of h, from the origin of h on; the way leaves it through number `out`.
     for (std::size_t k = 0; k < out; ++k) h = TriangleMesh::next(h);
@@ -37,7 +39,8 @@ StraightWay go_straight(const Unfolding& unfolding, const MeshPlace& base, Vec2 
     const double beyond = cross(u - right, edge);
     const std::uint32_t over = mesh.twin(h);
     if (beyond <= 0 || over == TriangleMesh::none) {
-      const double part = beyond <= 0 ? 1 : std::clamp(cross(right - start, edge) / cross(way, edge), 0.0, 1.0);
+      const double part =
+          beyond <= 0 ? 1 : std::clamp(cross(right - start, edge) / cross(way, edge), 0.0, 1.0);
       const Vec2 end = beyond <= 0 ? u : start + part * way;
       return {place_in(unfolding, h, corners, end), part};
     }

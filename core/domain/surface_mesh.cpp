@@ -12,7 +12,7 @@
 namespace wellspaced {
 namespace {
 
-constexpr double most = 0.75;         ///< of the way to the border in one move
+constexpr double most = 0.75;              ///< of the way to the border in one move
 constexpr double far_from_surface = 1e-9;  ///< of the box's diagonal
 
 Box box_around(const TriangleMesh& mesh) {
@@ -59,10 +59,11 @@ SurfaceMesh::SurfaceMesh(TriangleMesh mesh)
 MeshPlace SurfaceMesh::locate(Vec3 p) const { return spot(p).place; }
 
 SurfaceMesh::Spot SurfaceMesh::spot(Vec3 p) const {
-  const FaceTree::Nearest found = tree_.nearest(p, rounding_ / 16);
-  Spot spot{{found.face, found.weights}, {}};
+  auto found = tree_.find(p, rounding_ / 16);
+  if (!found) found = tree_.nearest(p);
+  Spot spot{{found->face, found->weights}, {}};
   if (border_.curves().empty()) return spot;
-  spot.border = border_.spot(p, found.face);
+  spot.border = border_.spot(p, found->face);
   if (spot.border) spot.place = border_.place(*spot.border);
   return spot;
 }
@@ -87,7 +88,8 @@ double SurfaceMesh::distance(Vec3 p, Vec3 q) const {
     GeodesicSearch search(unfolding_, from, reach);
     search.add(to);
     search.run();
-    if (search.targets().front().distance < GeodesicSearch::unreached) return search.targets().front().distance;
+    if (search.targets().front().distance < GeodesicSearch::unreached)
+      return search.targets().front().distance;
   }
   return GeodesicSearch::unreached;
 }
@@ -109,7 +111,8 @@ Vec3 SurfaceMesh::random_point(Rng& rng) const {
     const double area = rng.uniform() * areas_up_to_.back();
     const auto after = std::upper_bound(areas_up_to_.begin(), areas_up_to_.end() - 1, area);
     const auto face = static_cast<std::uint32_t>(after - areas_up_to_.begin());
-    const Vec3 p = random_point_in({mesh_.corner(face, 0), mesh_.corner(face, 1), mesh_.corner(face, 2)}, rng);
+    const Vec3 p =
+        random_point_in({mesh_.corner(face, 0), mesh_.corner(face, 1), mesh_.corner(face, 2)}, rng);
     if (border_.curves().empty() || !spot(p).border) return p;
   }
 }
@@ -166,7 +169,8 @@ void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neigh
   neighbors.resize(kept);
 }
 
-void SurfaceMesh::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors, std::span<HalfPlane> out) const {
+void SurfaceMesh::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors,
+                            std::span<HalfPlane> out) const {
   flat_bisectors(u, neighbors, out);
 }
 

@@ -14,21 +14,22 @@
 
 namespace wellspaced {
 
-/// The surface of a triangle mesh, with or without border; distances are lengths of the shortest ways over its
-/// faces.
+/// The surface of a triangle mesh, with or without border; distances are lengths of the shortest ways over
+/// its faces.
 ///
 /// The chart at p is geodesic polar coordinates: the unfolded faces as seen from p. Its axes are those of p's
-/// face: x along the first edge, y into the face. Points on an edge belong to one of its faces, always the same.
-/// Neighbors behind a vertex with more than a whole turn around it appear in the direction of that vertex.
+/// face: x along the first edge, y into the face. Points on an edge belong to one of its faces, always the
+/// same. Neighbors behind a vertex with more than a whole turn around it appear in the direction of that
+/// vertex.
 ///
-/// Points within 1e-12 of the box's diagonal from the border are on it; its curves end at corners, where it turns
-/// by more than 45 degrees on the unfolded faces.
+/// Points within 1e-12 of the box's diagonal from the border are on it; its curves end at corners, where it
+/// turns by more than 45 degrees on the unfolded faces.
 ///
 /// Guarantees: `step` ends on the surface, to rounding; `distance` and `localize` are exact but for rounding.
 /// step(p, log q) is q again, but where the shortest way runs through a vertex.
-/// Cost: a point is found among 10^5 faces in about .2 us; a step 10 ns a face more; localize about 20 ns a face
-/// within reach, and more where faces are far smaller: see GeodesicSearch. `distance` may take a second where the
-/// way is long and the mesh large.
+/// Cost: a point is found among 10^5 faces in about .2 us; a step 10 ns a face more; localize about 20 ns a
+/// face within reach, and more where faces are far smaller: see GeodesicSearch. `distance` may take a second
+/// where the way is long and the mesh large.
 class SurfaceMesh final : public Domain {
  public:
   explicit SurfaceMesh(TriangleMesh mesh);

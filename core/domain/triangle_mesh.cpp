@@ -12,9 +12,9 @@
 namespace wellspaced {
 namespace {
 
-constexpr double largest_coordinate = 1e60;    ///< so that volumes and their squares are finite
-constexpr double flattest = 1e-10;             ///< height of a face over its longest edge
-constexpr double coordinate_rounding = 1e-13;  ///< height of a face over its coordinates
+constexpr double largest_coordinate = 1e60;               ///< so that volumes and their squares are finite
+constexpr double flattest = 1e-10;                        ///< height of a face over its longest edge
+constexpr double coordinate_rounding = 1e-13;             ///< height of a face over its coordinates
 constexpr std::size_t most_faces = std::size_t{1} << 30;  ///< so that half-edges fit 32 bits
 
 [[noreturn]] void refuse_face(std::size_t face, const std::string& problem) {
@@ -67,9 +67,10 @@ void check_area(const Triangles& mesh, std::size_t face) {
     largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   const double height = norm(cross(b - a, c - a)) / longest;
   if (height > flattest * longest && height > coordinate_rounding * largest) return;
-  refuse_face(face, "face " + std::to_string(face) + " (vertices " + numbers(mesh.faces[face]) +
-                        ") has no area, to rounding; merge vertices that coincide and remove the face, or flip "
-                        "its longest edge");
+  refuse_face(face,
+              "face " + std::to_string(face) + " (vertices " + numbers(mesh.faces[face]) +
+                  ") has no area, to rounding; merge vertices that coincide and remove the face, or flip "
+                  "its longest edge");
 }
 
 /// One side of an edge, by the edge's ends.
@@ -109,8 +110,8 @@ void check_edge(const TriangleMesh& mesh, std::span<const Side> sides) {
         refuse_face(face, "face " + std::to_string(face) + " has the same vertices as face " +
                               std::to_string(TriangleMesh::face_of(sides[j].half_edge)) + "; remove one");
       }
-  const bool fits = sides.size() == 1 || (sides.size() == 2 && mesh.origin(sides[0].half_edge) !=
-                                                                   mesh.origin(sides[1].half_edge));
+  const bool fits = sides.size() == 1 ||
+                    (sides.size() == 2 && mesh.origin(sides[0].half_edge) != mesh.origin(sides[1].half_edge));
   if (!fits) refuse_edge(sides);
 }
 
@@ -181,8 +182,7 @@ void TriangleMesh::find_fans() {
     for (std::uint32_t at = h; fan.size() < turned; at = turn_left(at)) fan.push_back(face_of(at));
     std::uint32_t other = 0;
     while (origin(other) != v || std::find(fan.begin(), fan.end(), face_of(other)) != fan.end()) ++other;
-    refuse_vertex(v, "vertex " + std::to_string(v) +
-                         " joins fans of faces that share no edge there (faces " +
+    refuse_vertex(v, "vertex " + std::to_string(v) + " joins fans of faces that share no edge there (faces " +
                          std::to_string(face_of(last)) + " and " + std::to_string(face_of(other)) +
                          " are in different ones); give each fan a vertex of its own");
   }
@@ -222,7 +222,8 @@ void TriangleMesh::find_borders() {
 }
 
 void TriangleMesh::measure() {
-  const auto used = std::count_if(first_out_.begin(), first_out_.end(), [](std::uint32_t h) { return h != none; });
+  const auto used =
+      std::count_if(first_out_.begin(), first_out_.end(), [](std::uint32_t h) { return h != none; });
   facts_.vertices = static_cast<std::size_t>(used);
   facts_.unused_vertices = vertices().size() - facts_.vertices;
   facts_.faces = faces().size();

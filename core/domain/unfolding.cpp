@@ -56,7 +56,8 @@ Frame Unfolding::frame(std::uint32_t face) const {
 
 Vec3 Unfolding::position(const MeshPlace& place) const {
   const auto& [a, b, c] = place.weights;
-  return a * mesh_->corner(place.face, 0) + b * mesh_->corner(place.face, 1) + c * mesh_->corner(place.face, 2);
+  return a * mesh_->corner(place.face, 0) + b * mesh_->corner(place.face, 1) +
+         c * mesh_->corner(place.face, 2);
 }
 
 std::array<double, 3> Unfolding::weights(const std::array<Vec2, 3>& corners, Vec2 p) const {

@@ -29,8 +29,8 @@ struct FlatFace {
 
 /// The faces of a mesh laid out in planes, one beside the other.
 ///
-/// Each face has a chart: its first edge lies along x, from the corner 0 at the origin, and the face is above.
-/// Cost: 5 ns to unfold a face; 100 bytes a face. Thread safety: immutable after construction.
+/// Each face has a chart: its first edge lies along x, from the corner 0 at the origin, and the face is
+/// above. Cost: 5 ns to unfold a face; 100 bytes a face. Thread safety: immutable after construction.
 class Unfolding {
  public:
   /// Requires: mesh outlives it.
