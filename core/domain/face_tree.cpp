@@ -156,4 +156,48 @@ FaceTree::Nearest FaceTree::nearest(Vec3 p) const {
   return best;
 }
 
+bool FaceTree::meets(const Bounds& box, Vec3 from, Vec3 direction, double most) {
+  double begin = 0, end = most;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = along(box.low, axis) - along(from, axis),
+                 high = along(box.high, axis) - along(from, axis);
+    const double d = along(direction, axis);
+    if (d == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    begin = std::max(begin, std::min(low / d, high / d));
+    end = std::min(end, std::max(low / d, high / d));
+  }
+  return begin <= end;
+}
+
+std::optional<FaceTree::Hit> FaceTree::hit(Vec3 from, Vec3 direction, double least, double most) const {
+  std::optional<Hit> first;
+  std::uint32_t open[most_levels];
+  std::size_t count = 0;
+  open[count++] = 0;
+  const auto try_triangle = [&](const Triangle& t) {
+    // Moeller and Trumbore 1997.
+    const Vec3 ab = t.b - t.a, ac = t.c - t.a, across = cross(direction, ac);
+    const double det = dot(ab, across);
+    if (det == 0) return;
+    const Vec3 to = from - t.a, up = cross(to, ab);
+    const double v = dot(to, across) / det, w = dot(direction, up) / det, distance = dot(ac, up) / det;
+    if (v < 0 || w < 0 || v + w > 1 || distance < least || distance > most) return;
+    first = {t.face, distance};
+    most = distance;
+  };
+  while (count > 0) {
+    const Node& node = nodes_[open[--count]];
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!meets(node.boxes[side], from, direction, most)) continue;
+      if (node.count[side] == 0) open[count++] = node.first[side];
+      for (std::uint32_t k = node.first[side]; k < node.first[side] + node.count[side]; ++k)
+        try_triangle(triangles_[k]);
+    }
+  }
+  return first;
+}
+
 }  // namespace wellspaced

@@ -30,22 +30,13 @@ class FaceTree {
   /// distances.
   std::optional<Nearest> find(Vec3 p, double distance) const;
 
-  /// Calls use(face) for every face whose box meets the ball around p.
-  template <class Use>
-  void visit(Vec3 p, double radius, const Use& use) const {
-    std::vector<std::uint32_t> open{0};
-    while (!open.empty()) {
-      const Node node = nodes_[open.back()];
-      open.pop_back();
-      for (std::size_t side = 0; side < 2; ++side) {
-        if (distance2(node.boxes[side], p) > radius * radius) continue;
-        if (node.count[side] == 0)
-          open.push_back(node.first[side]);
-        else
-          for (std::uint32_t k = 0; k < node.count[side]; ++k) use(triangles_[node.first[side] + k].face);
-      }
-    }
-  }
+  struct Hit {
+    std::uint32_t face = 0;
+    double distance = 0;
+  };
+  /// The first triangle on a ray, not nearer than `least` nor farther than `most`. Requires: |direction|
+  /// == 1.
+  std::optional<Hit> hit(Vec3 from, Vec3 direction, double least, double most) const;
 
  private:
   struct Bounds {
@@ -67,6 +58,7 @@ class FaceTree {
   };
 
   static double distance2(const Bounds& box, Vec3 p);
+  static bool meets(const Bounds& box, Vec3 from, Vec3 direction, double most);
   static Bounds bounds_of(const Triangle& t);
   Bounds bounds_of(std::size_t begin, std::size_t end) const;
   void build(std::size_t node, std::size_t begin, std::size_t end);

@@ -9,6 +9,7 @@
 #include "core/domain/domain.h"
 #include "core/domain/face_tree.h"
 #include "core/domain/mesh_border.h"
+#include "core/domain/smallest_feature.h"
 #include "core/domain/triangle_mesh.h"
 #include "core/domain/unfolding.h"
 
@@ -47,6 +48,9 @@ class SurfaceMesh final : public Domain {
   Frame frame(std::uint32_t face) const { return unfolding_.frame(face); }
   /// The vector of the shortest way from p to q in the chart at p; nothing if that is longer than `reach`.
   std::optional<Vec2> logarithm(Vec3 p, Vec3 q, double reach) const;
+
+  /// See core/domain/smallest_feature.h.
+  SmallestFeature smallest_feature() const { return wellspaced::smallest_feature(mesh_, tree_); }
 
   std::string_view type() const override { return "mesh"; }
   int dimension() const override { return 3; }
