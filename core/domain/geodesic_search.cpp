@@ -53,6 +53,7 @@ GeodesicSearch::GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base
       corners_(unfolding.corners_around(base)) {
   if (*std::min_element(base.weights.begin(), base.weights.end()) < nudge)
     apex_ = nudge * (corners_[0] + corners_[1] + corners_[2]);
+  slack_ = norm(apex_);
 }
 
 void GeodesicSearch::run(Border border) {
@@ -98,7 +99,7 @@ void GeodesicSearch::run_nearest_first() {
   limit_ = reach_;
   vertex_distance_.assign(mesh_->vertices().size(), unreached);
   start();
-  while (!queue_.empty() && queue_.front().nearest <= limit_) {
+  while (!queue_.empty() && queue_.front().nearest <= limit_ + slack_) {
     std::pop_heap(queue_.begin(), queue_.end());
     const std::uint32_t slot = queue_.back().slot;
     queue_.pop_back();
@@ -293,7 +294,7 @@ void GeodesicSearch::follow_edge(std::uint32_t vertex, double back, const Window
 void GeodesicSearch::push(Window& w, Vec2 across) {
   const Vec2 edge = w.left - w.right;
   const double d2 = nearest2(apex_of(w), w.right, edge, w.right_ray, w.left_ray);
-  const double before = bends_[w.bend].before, left = limit_ - before;
+  const double before = bends_[w.bend].before, left = limit_ + slack_ - before;
   if (!(left >= 0 && d2 <= left * left)) return;
   if (nearest_first_) {
     if (cannot_be_shortest(w, across)) return;

@@ -110,6 +110,7 @@ class GeodesicSearch {
   const TriangleMesh* mesh_;
   MeshPlace base_;
   double reach_, limit_;
+  double slack_ = 0;  ///< from the base to the apex
   Vec2 apex_;  ///< the base, moved off edges into its face, so that what is behind an edge is beyond it
   std::array<Vec2, 3> corners_;
   Border border_ = Border::ignore;
