@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/domain/straight_way.h"
 #include "core/math.h"
 
 namespace wellspaced {
@@ -12,7 +13,9 @@ namespace {
 constexpr double nudge = 1e-9;  ///< how far, as weights, the apex keeps from the edges of its face
 constexpr double grazing =
     1e-12;  ///< of a ray's length: passing a vertex or a target so closely is hitting it
-constexpr double no_angle = 1e-13;     ///< radians
+constexpr double no_angle = 1e-13;  ///< radians
+constexpr double many_faces = 150;  ///< within reach: to look everywhere takes longer than to aim
+constexpr double proof = 1e-10;     ///< relative: how much shorter a way would have to be to be worth a look
 constexpr double improvement = 1e-14;  ///< relative, of a way that only rounding makes shorter
 
 double size1(Vec2 v) { return std::fabs(v.x) + std::fabs(v.y); }
@@ -60,9 +63,26 @@ void GeodesicSearch::run(Border border) {
   border_ = border;
   if (targets_.empty() && border == Border::ignore) return;
   hash_targets();
-  if (run_in_any_order()) return;
-  for (Target& target : targets_) target.distance = unreached;
-  run_nearest_first();
+  const Vec3 a = mesh_->corner(base_.face, 0);
+  const double face = norm(cross(mesh_->corner(base_.face, 1) - a, mesh_->corner(base_.face, 2) - a)) / 2;
+  if (border == Border::ignore && targets_.size() <= most_aimed && pi * reach_ * reach_ > many_faces * face)
+    aim_at_targets();
+  if (!run_in_any_order()) run_nearest_first();
+}
+
+/// Ways that are found so are no proof that there is no shorter one, but few windows can still lead to one.
+void GeodesicSearch::aim_at_targets() {
+  is_aimed_ = true;
+  double longest = 0;
+  for (Target& target : targets_) {
+    target.position = unfolding_->position(target.place);
+    if (const auto way = aim(*unfolding_, base_, target.place)) {
+      target.bound = way->length;
+      if (way->vector) improve(target, way->length, *way->vector);
+    }
+    longest = std::max(longest, target.bound);
+  }
+  limit_ = std::min(limit_, longest * (1 + proof));
 }
 
 void GeodesicSearch::hash_targets() {
@@ -95,8 +115,6 @@ void GeodesicSearch::run_nearest_first() {
   nearest_first_ = true;
   windows_.clear();
   views_.clear();
-  found_ = 0;
-  limit_ = reach_;
   vertex_distance_.assign(mesh_->vertices().size(), unreached);
   start();
   while (!queue_.empty() && queue_.front().nearest <= limit_ + slack_) {
@@ -118,6 +136,7 @@ void GeodesicSearch::start() {
     see_vertex(w, h + k, corners_[k], corners_[(k + 1) % 3] - corners_[k]);
   enter(w, h, corners_);  // without rays, so all of it
   for (std::uint32_t k = 0; k < 3; ++k) {
+    w = {};
     w.half_edge = h + k;
     w.right = corners_[k];
     w.left = corners_[(k + 1) % 3];
@@ -135,11 +154,11 @@ void GeodesicSearch::go_on(const Window& w) {
   const auto [before, first, vertex, back] = bends_[w.bend];
   const double around = unfolding_->angle_around(vertex);
   if (mesh_->at_border(vertex)) {
-    leave(w.bend, 0, back - pi);
-    leave(w.bend, back + pi, around);
+    leave(w, 0, back - pi);
+    leave(w, back + pi, around);
   } else {
-    leave(w.bend, back + pi, back + around - pi);
-    leave(w.bend, back + pi - around, back - pi);
+    leave(w, back + pi, back + around - pi);
+    leave(w, back + pi - around, back - pi);
   }
 }
 
@@ -157,12 +176,13 @@ void GeodesicSearch::cross_edge(const Window& w) {
   if (between(w.right_ray, w.left_ray, to)) see_vertex(w, TriangleMesh::previous(h), tip, w.left - tip);
   const bool right_of_tip = cross(w.right_ray, to) > 0, left_of_tip = cross(to, w.left_ray) > 0;
   if (right_of_tip) {
-    Window child{TriangleMesh::next(h), w.bend, w.right, tip, w.right_ray, left_of_tip ? to : w.left_ray, 0};
+    Window child{TriangleMesh::next(h),         w.bend, w.right, tip, w.right_ray,
+                 left_of_tip ? to : w.left_ray, 0,      w.wanted};
     push(child, w.left);
   }
   if (left_of_tip) {
     Window child{TriangleMesh::previous(h),       w.bend,     tip, w.left,
-                 right_of_tip ? to : w.right_ray, w.left_ray, 0};
+                 right_of_tip ? to : w.right_ray, w.left_ray, 0,   w.wanted};
     push(child, w.right);
   }
 }
@@ -192,6 +212,7 @@ void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {
   if (distance > reach_ || distance >= target.distance * (1 - improvement)) return;
   if (target.distance == unreached) ++found_;
   target.distance = distance;
+  target.bound = std::min(target.bound, distance);
   target.vector = vector;
   if (found_ < targets_.size() || border_ == Border::look) return;
   limit_ = 0;
@@ -208,7 +229,8 @@ void GeodesicSearch::see_vertex(const Window& w, std::uint32_t h, Vec2 at, Vec2 
   const Vec2 back = apex_of(w) - at;
   const double angle = std::max(0.0, portable_atan2(cross(along, back), dot(along, back)));
   add({distance, w.bend == 0 ? (-1 / norm(back)) * back : bends_[w.bend].first, vertex,
-       unfolding_->angle_to(h) + angle});
+       unfolding_->angle_to(h) + angle},
+      w.wanted);
 }
 
 /// Whether no way as short to the vertex is known so far; it is then.
@@ -239,18 +261,19 @@ GeodesicSearch::Known* GeodesicSearch::find_known(std::uint32_t vertex) {
   return &known_[slot];
 }
 
-void GeodesicSearch::add(const Bend& bend) {
+void GeodesicSearch::add(const Bend& bend, std::uint64_t wanted) {
   Window w;
   w.bend = static_cast<std::uint32_t>(bends_.size());
   w.nearest = bend.before;
+  w.wanted = wanted;
   bends_.push_back(bend);
   put(w);
 }
 
 /// Goes on from a vertex in the directions between two angles around it, as far as there are faces.
-void GeodesicSearch::leave(std::uint32_t bend, double low, double high) {
+void GeodesicSearch::leave(const Window& bend, double low, double high) {
   if (high < low || high < 0) return;
-  std::uint32_t h = mesh_->first_out(bends_[bend].vertex);
+  std::uint32_t h = mesh_->first_out(bends_[bend.bend].vertex);
   const std::uint32_t first = h;
   do {
     const double begin = unfolding_->angle_to(h), size = unfolding_->angle_at(h);
@@ -260,11 +283,10 @@ void GeodesicSearch::leave(std::uint32_t bend, double low, double high) {
 }
 
 /// The same in the face of h, which starts at the vertex; angles from h.
-void GeodesicSearch::leave_through(std::uint32_t bend, std::uint32_t h, double low, double high) {
+void GeodesicSearch::leave_through(const Window& bend, std::uint32_t h, double low, double high) {
   const std::uint32_t after = TriangleMesh::next(h), last = TriangleMesh::previous(h);
-  Window w;
+  Window w = bend;
   w.half_edge = after;
-  w.bend = bend;
   w.right = {norm(mesh_->vertices()[mesh_->target(h)] - mesh_->vertices()[mesh_->origin(h)]), 0};
   w.left = unfolding_->tip(h, {}, w.right);
   const auto ray = [](double angle) {
@@ -287,7 +309,7 @@ void GeodesicSearch::follow_edge(std::uint32_t vertex, double back, const Window
   const auto [before, first, from, unused] = bends_[w.bend];
   const bool bends = unfolding_->bends_ways(vertex);
   if (before + length > limit_ || !(bends || nearest_first_)) return;
-  if (is_news(vertex, before + length) && bends) add({before + length, first, vertex, back});
+  if (is_news(vertex, before + length) && bends) add({before + length, first, vertex, back}, w.wanted);
 }
 
 /// Keeps the window if it can matter; `across`: the third corner of the face that it leaves.
@@ -296,11 +318,41 @@ void GeodesicSearch::push(Window& w, Vec2 across) {
   const double d2 = nearest2(apex_of(w), w.right, edge, w.right_ray, w.left_ray);
   const double before = bends_[w.bend].before, left = limit_ + slack_ - before;
   if (!(left >= 0 && d2 <= left * left)) return;
+  if (is_aimed_ && (w.wanted = still_wanted(w)) == 0) return;
   if (nearest_first_) {
     if (cannot_be_shortest(w, across)) return;
     w.nearest = before + std::sqrt(d2);
   }
   put(w);
+}
+
+/// Those of the window's targets that may be nearer over it than is known. No way from a point of the edge to
+/// the target is shorter than the straight line, and that is as long in the window's plane, the target turned
+/// into it.
+std::uint64_t GeodesicSearch::still_wanted(const Window& w) const {
+  const Vec3 a = mesh_->vertices()[mesh_->origin(w.half_edge)];
+  const Vec3 edge = mesh_->vertices()[mesh_->target(w.half_edge)] - a;
+  const Vec2 from = apex_of(w), flat = w.left - w.right;
+  const double per_length2 = 1 / norm2(edge), before = bends_[w.bend].before;
+  std::uint64_t wanted = 0;
+  for (std::uint64_t open = w.wanted; open != 0; open &= open - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(open));
+    if (k >= targets_.size()) break;
+    const Vec3 to = targets_[k].position - a;
+    const double along = dot(to, edge) * per_length2, away = norm(cross(to, edge)) * per_length2;
+    const Vec2 q = w.right + along * flat + away * Vec2{flat.y, -flat.x}, straight = q - from;
+    const double left = std::min(targets_[k].bound, reach_) * (1 + proof) + slack_ - before;
+    double length = norm(straight);
+    if (length <= left) {
+      const bool right_of = cross(w.right_ray, straight) < 0, left_of = cross(straight, w.left_ray) < 0;
+      if (right_of || left_of) {
+        const Vec2 end = meet(from, right_of ? w.right_ray : w.left_ray, w.right, flat);
+        length = norm(end - from) + norm(q - end);
+      }
+    }
+    if (length <= left) wanted |= open & -open;
+  }
+  return wanted;
 }
 
 /// Where a way over a corner of the face to the far end of the window is shorter than the window's, so is one

@@ -157,14 +157,18 @@ Vec3 SurfaceMesh::step(Vec3 p, Vec2 u) const {
 }
 
 void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const {
-  GeodesicSearch search(unfolding_, locate(base), reach);
-  for (const Neighbor& neighbor : neighbors) search.add(locate(base + neighbor.offset));
-  search.run();
+  const MeshPlace place = locate(base);
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < neighbors.size(); ++k) {
-    const auto& target = search.targets()[k];
-    if (target.distance > reach) continue;
-    neighbors[kept++] = {{target.vector.x, target.vector.y, 0}, neighbors[k].id};
+  for (std::size_t begin = 0, end = 0; begin < neighbors.size(); begin = end) {
+    end = std::min(neighbors.size(), begin + GeodesicSearch::most_aimed);
+    GeodesicSearch search(unfolding_, place, reach);
+    for (std::size_t k = begin; k < end; ++k) search.add(locate(base + neighbors[k].offset));
+    search.run();
+    for (std::size_t k = begin; k < end; ++k) {
+      const GeodesicSearch::Target& target = search.targets()[k - begin];
+      if (target.distance > reach) continue;
+      neighbors[kept++] = {{target.vector.x, target.vector.y, 0}, neighbors[k].id};
+    }
   }
   neighbors.resize(kept);
 }
