@@ -21,7 +21,9 @@ class FeatureSearch {
       normals_.push_back(unit(cross(mesh.corner(f, 1) - a, mesh.corner(f, 2) - a)));
     }
     Vec3 low = mesh.corner(0, 0), high = low;
-    for (const Vec3 p : mesh.vertices()) {
+    for (std::uint32_t v = 0; v < mesh.vertices().size(); ++v) {
+      if (mesh.first_out(v) == TriangleMesh::none) continue;
+      const Vec3 p = mesh.vertices()[v];
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }

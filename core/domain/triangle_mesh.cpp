@@ -178,10 +178,10 @@ void TriangleMesh::find_fans() {
     }
     if (turned == corners[v]) continue;
     // Any face outside the fan tells where the other one is.
-    std::vector<std::uint32_t> fan;
-    for (std::uint32_t at = h; fan.size() < turned; at = turn_left(at)) fan.push_back(face_of(at));
+    std::vector<bool> in_fan(faces().size(), false);
+    for (std::uint32_t at = h; turned > 0; at = turn_left(at), --turned) in_fan[face_of(at)] = true;
     std::uint32_t other = 0;
-    while (origin(other) != v || std::find(fan.begin(), fan.end(), face_of(other)) != fan.end()) ++other;
+    while (origin(other) != v || in_fan[face_of(other)]) ++other;
     refuse_vertex(v, "vertex " + std::to_string(v) + " joins fans of faces that share no edge there (faces " +
                          std::to_string(face_of(last)) + " and " + std::to_string(face_of(other)) +
                          " are in different ones); give each fan a vertex of its own");

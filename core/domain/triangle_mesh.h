@@ -45,6 +45,7 @@ struct MeshFacts {
 /// or than 1e-13 of its coordinates), a face that an earlier one repeats, an edge of three faces or more, two
 /// neighbors of opposite orientation (nothing is turned over silently), and two faces that cross; at "/faces"
 /// for no face at all or more than 2^30.
+/// too_large at "/faces": see first_crossing.
 /// Cost: O(n log n), about 2 us a face; the search for faces that cross is half of it.
 /// Thread safety: immutable after construction.
 class TriangleMesh {

@@ -10,7 +10,6 @@
 
 #include "core/error.h"
 #include "core/math.h"
-#include "tests/support/geodesic_oracle.h"
 #include "tests/support/meshes.h"
 
 namespace wellspaced {
@@ -22,40 +21,9 @@ using namespace wellspaced::testing;
 double bumps(double x, double y) {
   return 0.12 * portable_cos_sin(1.3 * x + 0.2).sin * portable_cos_sin(1.7 * y).cos;
 }
-/// Squares with a narrow pit: to the other side one walks around it or through it.
-double pit(double x, double y) { return std::fabs(x - 0.5) < 0.15 && std::fabs(y - 0.5) < 0.15 ? -0.6 : 0; }
-
 Vec2 in_plane(const SurfaceMesh& mesh, std::uint32_t face, Vec3 v) {
   const Frame frame = mesh.frame(face);
   return {dot(v, frame.x), dot(v, frame.y)};
-}
-
-/// Distances against CGAL's, from `bases` places to 40 random ones and some vertices each.
-void expect_exact_distances(const Triangles& triangles, int bases, double tolerance = 1e-12) {
-  const SurfaceMesh mesh{TriangleMesh(triangles, TriangleMesh::Crossings::allow)};
-  GeodesicOracle oracle(mesh.mesh());
-  Rng rng(3);
-  const auto faces = mesh.mesh().faces().size();
-  for (int b = 0; b < bases; ++b) {
-    const auto vertex = [&] { return mesh.mesh().corner(static_cast<std::uint32_t>(rng.below(faces)), 1); };
-    const Vec3 base = b % 3 == 2 ? vertex() : mesh.random_point(rng);
-    std::vector<Vec3> points;
-    std::vector<MeshPlace> places;
-    for (int k = 0; k < 48; ++k) {
-      points.push_back(k % 6 == 0 ? vertex() : mesh.random_point(rng));
-      places.push_back(mesh.locate(points.back()));
-    }
-    const std::vector<double> exact = oracle.distances(mesh.locate(base), places);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      SCOPED_TRACE("base " + std::to_string(b) + ", point " + std::to_string(k));
-      EXPECT_NEAR(mesh.distance(base, points[k]), exact[k], tolerance * (exact[k] + 1e-3));
-      // Within reach and out of it.
-      const auto near = mesh.logarithm(base, points[k], exact[k] * (1 + 1e-9));
-      ASSERT_TRUE(near.has_value());
-      EXPECT_NEAR(norm(*near), exact[k], tolerance * (exact[k] + 1e-3));
-      EXPECT_EQ(mesh.logarithm(base, points[k], exact[k] * (1 - 1e-9)).has_value(), exact[k] == 0);
-    }
-  }
 }
 
 TEST(SurfaceMesh, IsADomainLikeTheOthers) {
@@ -70,42 +38,6 @@ TEST(SurfaceMesh, IsADomainLikeTheOthers) {
   for (const DomainTriangle& t : mesh.triangles()) sum += mesh.area_of(t);
   EXPECT_NEAR(sum, mesh.area(), 1e-12);
   EXPECT_NEAR(mesh.box().low.y, -0.85065080835203999, 1e-15);
-}
-
-TEST(SurfaceMesh, DistancesAreThoseOfCgal) {
-  expect_exact_distances(tetrahedron(), 9);
-  expect_exact_distances(icosahedron(), 9);
-  expect_exact_distances(height_field(9, 1, bumps), 6);
-  expect_exact_distances(height_field(12, 1, pit), 6);
-  expect_exact_distances(open_cylinder(9), 6);
-  expect_exact_distances(refined_sphere(icosahedron(), 2), 3);
-}
-
-TEST(SurfaceMesh, DistancesOnRealMeshesAreThoseOfCgal) {
-  const std::string folder = shared_data();
-  if (folder.empty()) GTEST_SKIP() << "WELLSPACED_DATA_DIR is not set";
-  for (const char* name :
-       {"icosahedron.off", "eight.off", "spot.obj", "fertility_small.off", "mesh_with_border.off"}) {
-    SCOPED_TRACE(name);
-    expect_exact_distances(read_triangles(folder + "/meshes/" + name), 3);
-  }
-}
-
-TEST(SurfaceMesh, DistancesBetweenVerticesOfTheIcosahedronAreThoseExpected) {
-  const std::string folder = shared_data();
-  if (folder.empty()) GTEST_SKIP() << "WELLSPACED_DATA_DIR is not set";
-  const SurfaceMesh mesh{TriangleMesh(read_triangles(folder + "/meshes/icosahedron.off"))};
-  std::ifstream expected(folder + "/expected/geodesic_icosahedron.csv");
-  int pairs = 0;
-  for (std::string line; std::getline(expected, line); ++pairs) {
-    std::istringstream cells(line.substr(line.find(',') + 1));
-    std::size_t a = 0, b = 0;
-    double distance = 0;
-    char comma;
-    cells >> a >> comma >> b >> comma >> distance;
-    EXPECT_NEAR(mesh.distance(mesh.mesh().vertices()[a], mesh.mesh().vertices()[b]), distance, 1e-9) << line;
-  }
-  EXPECT_EQ(pairs, 18);
 }
 
 TEST(SurfaceMesh, ComponentsAreInfinitelyFarApart) {
@@ -257,18 +189,35 @@ TEST(SurfaceMesh, LocalizeKeepsWhatIsNearOnTheSurface) {
   EXPECT_NEAR(half_planes[0].c, norm2(half_planes[0].n) / 2, 1e-15);
 }
 
-TEST(SurfaceMesh, ManyWindowsGiveTheSameAsFew) {
-  // So fine that the search starts anew, nearest window first.
-  const SurfaceMesh fine{TriangleMesh(flat_square(120), TriangleMesh::Crossings::allow)};
-  const Vec3 p{0.501, 0.502, 0};
+TEST(SurfaceMesh, LocalizeIsTheSameForManyNeighborsAsForEach) {
+  // Faces so small that it aims first, and more neighbors than are aimed at together.
+  const SurfaceMesh mesh{TriangleMesh(height_field(60, 1, bumps))};
   Rng rng(9);
-  std::vector<Neighbor> neighbors;
-  for (std::uint32_t k = 0; k < 50; ++k) neighbors.push_back({fine.random_point(rng) - p, k});
-  const std::vector<Neighbor> before = neighbors;
-  fine.localize(p, 2, neighbors);
-  ASSERT_EQ(neighbors.size(), before.size());
-  for (std::size_t k = 0; k < before.size(); ++k)
-    EXPECT_NEAR(norm(neighbors[k].offset), norm(before[k].offset), 1e-12);
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 p = mesh.random_point(rng);
+    std::vector<Neighbor> neighbors;
+    for (std::uint32_t i = 0; i < 150; ++i) neighbors.push_back({mesh.random_point(rng) - p, i});
+    const std::vector<Neighbor> before = neighbors;
+    mesh.localize(p, 0.6, neighbors);
+    std::size_t at = 0;
+    for (const Neighbor& neighbor : before) {
+      const double distance = mesh.distance(p, p + neighbor.offset);
+      ASSERT_EQ(at < neighbors.size() && neighbors[at].id == neighbor.id, distance <= 0.6) << neighbor.id;
+      if (distance > 0.6) continue;
+      EXPECT_NEAR(norm(neighbors[at].offset), distance, 1e-12);
+      ++at;
+    }
+    EXPECT_EQ(at, neighbors.size());
+  }
+}
+
+TEST(SurfaceMesh, PiecesOfAFineMeshAddUpToItsArea) {
+  const SurfaceMesh mesh{TriangleMesh(flat_square(100))};
+  ChartPieces pieces;
+  ASSERT_TRUE(mesh.pieces({0.3, 0.4, 0}, 2, pieces));
+  double area = 0;
+  for (std::size_t k = 0; k < pieces.ends.size(); ++k) area += cross(pieces[k][1], pieces[k][2]) / 2;
+  EXPECT_NEAR(area, 1, 1e-12);
 }
 
 TEST(SurfaceMesh, TheBorderIsCutAtItsCorners) {
@@ -397,49 +346,6 @@ TEST(SurfaceMesh, HardMeshesStayExact) {
     EXPECT_NEAR(mesh.distance(p, q), norm(Vec2{unfolded, p.y - q.y}), 2e-9);  // vertices are rounded
     EXPECT_FALSE(mesh.why_outside(p).has_value());
   }
-}
-
-TEST(SurfaceMesh, KnowsItsSmallestFeature) {
-  const auto feature = [](const Triangles& triangles) {
-    return SurfaceMesh{TriangleMesh(triangles)}.smallest_feature();
-  };
-  EXPECT_NEAR(feature(refined_sphere(icosahedron(), 3)).length, 1, 0.01);
-  // A dent of curvature 40 in the middle.
-  const auto dent = [](double x, double y) {
-    const double r2 = (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5);
-    return -0.05 * portable_exp(-400 * r2);
-  };
-  const SmallestFeature bottom = feature(height_field(128, 1, dent));
-  EXPECT_NEAR(bottom.length, 1.0 / 40, 0.002);
-  EXPECT_EQ(bottom.description, "the radius of curvature at vertex " + std::to_string(64 * 129 + 64));
-  // A slab, seen from both sides, with sharp edges.
-  const SmallestFeature slab = feature({{{0, 0, 0},
-                                         {1, 0, 0},
-                                         {1, 1, 0},
-                                         {0, 1, 0},
-                                         {0.5, 0.5, 0},
-                                         {0, 0, 0.1},
-                                         {1, 0, 0.1},
-                                         {1, 1, 0.1},
-                                         {0, 1, 0.1}},
-                                        {{1, 0, 4},
-                                         {2, 1, 4},
-                                         {3, 2, 4},
-                                         {0, 3, 4},
-                                         {5, 6, 7},
-                                         {5, 7, 8},
-                                         {0, 1, 6},
-                                         {0, 6, 5},
-                                         {1, 2, 7},
-                                         {1, 7, 6},
-                                         {2, 3, 8},
-                                         {2, 8, 7},
-                                         {3, 0, 5},
-                                         {3, 5, 8}}});
-  EXPECT_NEAR(slab.length, 0.05, 1e-12);
-  EXPECT_THAT(slab.description, HasSubstr("half the distance to face"));
-  EXPECT_EQ(feature(flat_square(3)).length, 1);
-  EXPECT_EQ(feature(flat_square(3)).description, "the extent of the border of 12 edges at vertex 0");
 }
 
 }  // namespace
