@@ -59,7 +59,7 @@ GeodesicSearch::GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base
   slack_ = norm(apex_);
 }
 
-void GeodesicSearch::run(Border border) {
+void GeodesicSearch::run(Border border, std::size_t enough) {
   border_ = border;
   if (targets_.empty() && border == Border::ignore) return;
   hash_targets();
@@ -67,7 +67,7 @@ void GeodesicSearch::run(Border border) {
   const double face = norm(cross(mesh_->corner(base_.face, 1) - a, mesh_->corner(base_.face, 2) - a)) / 2;
   if (border == Border::ignore && targets_.size() <= most_aimed && pi * reach_ * reach_ > many_faces * face)
     aim_at_targets();
-  if (!run_in_any_order()) run_nearest_first();
+  if (!run_in_any_order(enough)) run_nearest_first();
 }
 
 /// Ways that are found so are no proof that there is no shorter one, but few windows can still lead to one.
@@ -98,12 +98,12 @@ void GeodesicSearch::hash_targets() {
   }
 }
 
-bool GeodesicSearch::run_in_any_order() {
+bool GeodesicSearch::run_in_any_order(std::size_t enough) {
   windows_.reserve(32);
   known_.assign(32, {});
   start();
   for (std::size_t count = 0; !windows_.empty(); ++count) {
-    if (count == enough_windows) return false;
+    if (count == enough) return false;
     const Window w = windows_.back();
     windows_.pop_back();
     go_on(w);

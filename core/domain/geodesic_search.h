@@ -32,6 +32,7 @@ namespace wellspaced {
 /// Chen and Han's algorithm on the discrete geodesic problem", 2009 (the filter).
 class GeodesicSearch {
  public:
+  static constexpr std::size_t enough_windows = 500000;
   static constexpr std::size_t most_aimed = 64;  ///< with more targets it looks everywhere
   static constexpr double unreached = std::numeric_limits<double>::infinity();
 
@@ -49,8 +50,8 @@ class GeodesicSearch {
   GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base, double reach);
 
   void add(const MeshPlace& place) { targets_.push_back({place, unreached, {}, none, {}, unreached}); }
-  /// With Border::look it goes on to the end of reach even if all targets were found.
-  void run(Border border = Border::ignore);
+  /// With Border::look it goes on to the end of reach even if all targets were found. `enough`: see above.
+  void run(Border border = Border::ignore, std::size_t enough = enough_windows);
 
   /// In the order in which they were added.
   const std::vector<Target>& targets() const { return targets_; }
@@ -60,7 +61,6 @@ class GeodesicSearch {
 
  private:
   static constexpr std::uint32_t none = ~0u;
-  static constexpr std::size_t enough_windows = 50000;
 
   /// How a way came to the place where it bent last: to the base itself, or over a vertex.
   struct Bend {
@@ -112,7 +112,7 @@ class GeodesicSearch {
   void push(Window& w, Vec2 across);
   bool cannot_be_shortest(const Window& w, Vec2 across) const;
   void put(const Window& w);
-  bool run_in_any_order();
+  bool run_in_any_order(std::size_t enough);
   void run_nearest_first();
 
   const Unfolding* unfolding_;

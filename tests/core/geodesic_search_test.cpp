@@ -88,20 +88,29 @@ TEST(GeodesicSearch, DistancesBetweenVerticesOfTheIcosahedronAreThoseExpected) {
   EXPECT_EQ(pairs, 18);
 }
 
-TEST(GeodesicSearch, ManyWindowsGiveTheSameAsFew) {
-  // More targets than it aims at and a fine mesh: it starts anew with the nearest window first.
-  const SurfaceMesh mesh{TriangleMesh(height_field(60, 1, bumps))};
-  const Unfolding unfolding(mesh.mesh());
-  Rng rng(9);
-  const Vec3 p = mesh.random_point(rng);
-  GeodesicSearch search(unfolding, mesh.locate(p), GeodesicSearch::unreached);
-  for (int k = 0; k < 100; ++k) search.add(mesh.locate(mesh.random_point(rng)));
-  search.run();
-  for (const GeodesicSearch::Target& target : search.targets()) {
-    const Vec3 q = unfolding.position(target.place);
-    const Vec2 u = mesh.logarithm(p, q, 10).value();
-    EXPECT_NEAR(target.distance, norm(u), 1e-12);
-    EXPECT_LT(norm(target.vector - u), 1e-9);
+TEST(GeodesicSearch, TheOrderOfWindowsDoesNotMatter) {
+  for (const Triangles& triangles : {height_field(25, 1, bumps), height_field(12, 1, pit), icosahedron()}) {
+    const TriangleMesh mesh(triangles, TriangleMesh::Crossings::allow);
+    const SurfaceMesh surface(mesh);
+    const Unfolding unfolding(mesh);
+    Rng rng(9);
+    for (int k = 0; k < 5; ++k) {
+      const MeshPlace base = surface.locate(k == 0 ? mesh.corner(3, 1) : surface.random_point(rng));
+      std::vector<GeodesicSearch> searches;
+      // All of them are aimed at where there are up to 64; nearest first if no window is enough.
+      for (const std::size_t enough : {std::size_t{0}, std::size_t{100}, GeodesicSearch::enough_windows}) {
+        Rng same(k);
+        searches.emplace_back(unfolding, base, GeodesicSearch::unreached);
+        for (int i = 0; i < (k % 2 == 0 ? 40 : 70); ++i)
+          searches.back().add(surface.locate(surface.random_point(same)));
+        searches.back().run(GeodesicSearch::Border::ignore, enough);
+      }
+      for (std::size_t i = 0; i < searches[0].targets().size(); ++i)
+        for (const GeodesicSearch& search : searches) {
+          EXPECT_NEAR(search.targets()[i].distance, searches[0].targets()[i].distance, 1e-12);
+          EXPECT_NEAR(norm(search.targets()[i].vector), search.targets()[i].distance, 1e-12);
+        }
+    }
   }
 }
 
