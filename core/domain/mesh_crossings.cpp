@@ -18,7 +18,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
-constexpr std::uint64_t most_pairs_a_face = 300, most_pairs_at_all = 5'000'000;
+constexpr std::uint64_t most_pairs_a_face = 60, most_pairs_at_all = 2'000'000;
 
 /// Is told of each pair of faces whose boxes meet, in no order, and keeps the first that cross.
 class Crossings {

@@ -143,6 +143,25 @@ TEST(TriangleMesh, RefusesFacesThatCrossUnlessAllowed) {
   EXPECT_EQ(TriangleMesh(mesh, TriangleMesh::Crossings::allow).facts().components, 2u);
 }
 
+TEST(TriangleMesh, StopsLookingForCrossingsWhereAllFacesAreInEachOthersBoxes) {
+  constexpr std::uint32_t n = 2500;
+  Triangles disk{{{0, 0, 0}}, {}};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const CosSin turn = portable_cos_sin(k, n);
+    disk.vertices.push_back({turn.cos, turn.sin, 0});
+    disk.faces.push_back({0, 1 + k, 1 + (k + 1) % n});
+  }
+  try {
+    const TriangleMesh unused(disk);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::too_large);
+    EXPECT_EQ(error.where(), "/faces");
+    EXPECT_THAT(error.what(), HasSubstr("allow self-intersections"));
+  }
+  EXPECT_NO_THROW(TriangleMesh(disk, TriangleMesh::Crossings::allow));
+}
+
 TEST(TriangleMesh, MeasuresWhatCgalMeasured) {
   const std::string folder = shared_data();
   if (folder.empty()) GTEST_SKIP() << "WELLSPACED_DATA_DIR is not set";
