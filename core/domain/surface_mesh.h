@@ -28,9 +28,9 @@ namespace wellspaced {
 ///
 /// Guarantees: `step` ends on the surface, to rounding; `distance` and `localize` are exact but for rounding.
 /// step(p, log q) is q again, but where the shortest way runs through a vertex.
-/// Cost: a point is found among 10^5 faces in about .2 us; a step 10 ns a face more; localize about 20 ns a
-/// face within reach, and more where faces are far smaller: see GeodesicSearch. `distance` may take a second
-/// where the way is long and the mesh large.
+/// Cost: to find a point .1 us, among 10^5 faces .2; a step .2 us, and 10 ns a face on the way; localize .3
+/// to .7 us a neighbor while there are fewer than 2 faces a sample, 1 us with 4, 3 with 20, 12 with 100.
+/// `distance` 5 to 15 ms across 10^4 faces, seconds across 10^6. Thread safety: immutable after construction.
 class SurfaceMesh final : public Domain {
  public:
   explicit SurfaceMesh(TriangleMesh mesh);
