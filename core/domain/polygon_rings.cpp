@@ -120,13 +120,14 @@ void PolygonRings::require_in_box(std::size_t k) const {
                 "the hole is outside the outer ring, which is the first one; leave it out, or make it a "
                 "polygon of its own",
                 where(k));
+  std::uint32_t out = first(k + 1);  // the first one as they came
   for (std::uint32_t e = first(k); e < first(k + 1); ++e)
-    if (!is_in(edges_[e].from))
-      throw Error(
-          ErrorCode::degenerate_input,
-          "this vertex of the hole is outside the outer ring, which is the first one; move it inside, "
-          "or leave the hole out",
-          where_corner(e));
+    if (!is_in(edges_[e].from) && (out == first(k + 1) || given_corner(e) < given_corner(out))) out = e;
+  if (out < first(k + 1))
+    throw Error(ErrorCode::degenerate_input,
+                "this vertex of the hole is outside the outer ring, which is the first one; move it inside, "
+                "or leave the hole out",
+                where_corner(out));
 }
 
 std::size_t PolygonRings::ring_of(std::uint32_t edge) const {

@@ -1,10 +1,11 @@
 #include "core/domain/polygon_validation.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <compare>
+#include <cstdint>
 #include <sstream>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "core/domain/exact.h"
 #include "core/error.h"
@@ -25,6 +26,9 @@ bool boxes_apart(const PolygonEdge& e, const PolygonEdge& f) {
          std::max(f.from.y, f.to.y) < std::min(e.from.y, e.to.y);
 }
 
+/// What two edges do that must not meet; the first of these is the most telling one.
+enum class Contact : std::uint8_t { spike, cross, overlap, touch, none };
+
 /// Of two edges: on which side of one the ends of the other are.
 struct Sides {
   Sides(const PolygonEdge& e, const PolygonEdge& f)
@@ -32,17 +36,25 @@ struct Sides {
         to_of_f(orientation(e.from, e.to, f.to)),
         from_of_e(orientation(f.from, f.to, e.from)),
         to_of_e(orientation(f.from, f.to, e.to)) {}
-  bool cross() const { return from_of_f * to_of_f < 0 && from_of_e * to_of_e < 0; }
-  bool on_one_line() const { return from_of_f == 0 && to_of_f == 0; }
   int from_of_f, to_of_f, from_of_e, to_of_e;
 };
 
-bool meet(const PolygonEdge& e, const PolygonEdge& f) {
-  if (boxes_apart(e, f)) return false;
+/// Requires: the edges are on one line.
+bool overlap(const PolygonEdge& e, const PolygonEdge& f) {
+  const auto [e_low, e_high] = std::minmax(e.from, e.to, lexicographically_less);
+  const auto [f_low, f_high] = std::minmax(f.from, f.to, lexicographically_less);
+  return lexicographically_less(e_low, f_high) && lexicographically_less(f_low, e_high);
+}
+
+Contact contact(const PolygonEdge& e, const PolygonEdge& f) {
+  if (boxes_apart(e, f)) return Contact::none;
   const Sides s(e, f);
-  return s.cross() || (s.from_of_f == 0 && in_box(e.from, e.to, f.from)) ||
-         (s.to_of_f == 0 && in_box(e.from, e.to, f.to)) ||
-         (s.from_of_e == 0 && in_box(f.from, f.to, e.from)) || (s.to_of_e == 0 && in_box(f.from, f.to, e.to));
+  if (s.from_of_f * s.to_of_f < 0 && s.from_of_e * s.to_of_e < 0) return Contact::cross;
+  if (s.from_of_f == 0 && s.to_of_f == 0 && overlap(e, f)) return Contact::overlap;
+  const bool touch =
+      (s.from_of_f == 0 && in_box(e.from, e.to, f.from)) || (s.to_of_f == 0 && in_box(e.from, e.to, f.to)) ||
+      (s.from_of_e == 0 && in_box(f.from, f.to, e.from)) || (s.to_of_e == 0 && in_box(f.from, f.to, e.to));
+  return touch ? Contact::touch : Contact::none;
 }
 
 /// f comes after e and goes back on it.
@@ -60,26 +72,32 @@ class Contacts {
         next_[e] = e + 1 == rings.first(k + 1) ? rings.first(k) : e + 1;
   }
 
-  /// The first pair of edges that must not meet and do.
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> first() const {
-    std::optional<std::pair<std::uint32_t, std::uint32_t>> found;
+  struct Found {
+    Contact contact = Contact::none;
+    std::uint32_t e = 0, f = 0;
+    friend auto operator<=>(const Found&, const Found&) = default;
+  };
+
+  /// The most telling one of the first edges.
+  Found first() const {
+    Found best;
     for (std::size_t square = 0; square < grid_.squares(); ++square) {
       const auto edges = grid_.edges_in(square);
       for (std::size_t j = 1; j < edges.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
-          const std::pair pair(edges[i], edges[j]);
-          if ((!found || pair < *found) && is_contact(pair.first, pair.second)) found = pair;
+          const Found found{between(edges[i], edges[j]), edges[i], edges[j]};
+          if (found.contact != Contact::none) best = std::min(best, found);
         }
     }
-    return found;
+    return best;
   }
 
  private:
-  bool is_contact(std::uint32_t e, std::uint32_t f) const {
+  Contact between(std::uint32_t e, std::uint32_t f) const {
     const auto& edges = rings_.edges();
-    if (next_[e] == f) return is_spike(edges[e], edges[f]);
-    if (next_[f] == e) return is_spike(edges[f], edges[e]);
-    return meet(edges[e], edges[f]);
+    if (next_[e] == f) return is_spike(edges[e], edges[f]) ? Contact::spike : Contact::none;
+    if (next_[f] == e) return is_spike(edges[f], edges[e]) ? Contact::spike : Contact::none;
+    return contact(edges[e], edges[f]);
   }
 
   const PolygonRings& rings_;
@@ -102,27 +120,30 @@ Vec2 crossing(const PolygonEdge& e, const PolygonEdge& f) {
 /// Says of two edges that meet what they do, and in which corner or at which edge.
 class Refusal {
  public:
-  Refusal(const PolygonRings& rings, std::uint32_t e, std::uint32_t f)
-      : rings_(rings), e_(e), f_(f), ring_e_(rings.ring_of(e)), ring_f_(rings.ring_of(f)) {}
+  Refusal(const PolygonRings& rings, const Contacts::Found& found)
+      : rings_(rings),
+        contact_(found.contact),
+        e_(found.e),
+        f_(found.f),
+        ring_e_(rings.ring_of(e_)),
+        ring_f_(rings.ring_of(f_)) {}
 
   [[noreturn]] void report() const {
-    const PolygonEdge e = rings_.edges()[e_], f = rings_.edges()[f_];
-    if (rings_.next(e_) == f_) spike(f_);
-    if (rings_.next(f_) == e_) spike(e_);
-    const Sides sides(e, f);
-    if (sides.cross())
-      refuse(start_of(f_), name(f_) + " crosses " + other(e_) + " at " + place(crossing(e, f)) +
-                               (ring_e_ == ring_f_ ? "; reorder or move their vertices"
-                                                   : "; rings must be apart: move it, or merge the rings"));
-    if (sides.on_one_line()) along();
-    for (const std::uint32_t c : {f_, rings_.next(f_)})
-      for (const std::uint32_t d : {e_, rings_.next(e_)})
-        if (corner(c) == corner(d)) touch(c, vertex(d));
-    for (const std::uint32_t c : {f_, rings_.next(f_)})
-      if (orientation(e.from, e.to, corner(c)) == 0 && in_box(e.from, e.to, corner(c))) touch(c, other(e_));
-    for (const std::uint32_t c : {e_, rings_.next(e_)})
-      if (orientation(f.from, f.to, corner(c)) == 0 && in_box(f.from, f.to, corner(c))) touch(c, other(f_));
-    refuse(f_, name(f_) + " meets " + other(e_));
+    switch (contact_) {
+      case Contact::spike:
+        spike(rings_.next(e_) == f_ ? f_ : e_);
+      case Contact::cross:
+        refuse(start_of(f_), name(f_) + " crosses " + other(e_) + " at " +
+                                 place(crossing(rings_.edges()[e_], rings_.edges()[f_])) +
+                                 (ring_e_ == ring_f_ ? "; reorder or move their vertices"
+                                                     : "; rings must be apart: move it, or merge the rings"));
+      case Contact::overlap:
+        refuse(start_of(f_), name(f_) + " runs along a part of " + other(e_) +
+                                 (ring_e_ == ring_f_ ? "; a ring must not touch itself"
+                                                     : "; rings must be apart: merge them, or move one"));
+      default:
+        report_touch();
+    }
   }
 
  private:
@@ -152,10 +173,20 @@ class Refusal {
     refuse(c, "the ring goes back on itself in this vertex, at " + place(corner(c)) +
                   ": a spike without width; leave the vertex out");
   }
-  [[noreturn]] void along() const {
-    refuse(start_of(f_), name(f_) + " runs along a part of " + other(e_) +
-                             (ring_e_ == ring_f_ ? "; a ring must not touch itself"
-                                                 : "; rings must be apart: merge them, or move one"));
+  [[noreturn]] void report_touch() const {
+    const std::uint32_t corners_e[] = {e_, rings_.next(e_)}, corners_f[] = {f_, rings_.next(f_)};
+    for (const std::uint32_t c : corners_f)
+      for (const std::uint32_t d : corners_e)
+        if (corner(c) == corner(d)) touch(c, vertex(d));
+    for (const std::uint32_t c : corners_f)
+      if (is_on(c, e_)) touch(c, other(e_));
+    for (const std::uint32_t c : corners_e)
+      if (is_on(c, f_)) touch(c, other(f_));
+    refuse(f_, name(f_) + " touches " + other(e_));
+  }
+  bool is_on(std::uint32_t c, std::uint32_t edge) const {
+    const auto [from, to] = rings_.edges()[edge];
+    return orientation(from, to, corner(c)) == 0 && in_box(from, to, corner(c));
   }
   [[noreturn]] void touch(std::uint32_t c, const std::string& what) const {
     refuse(c,
@@ -166,6 +197,7 @@ class Refusal {
   }
 
   const PolygonRings& rings_;
+  Contact contact_;
   std::uint32_t e_, f_;
   std::size_t ring_e_, ring_f_;
 };
@@ -189,8 +221,8 @@ void require_no_contact(const PolygonRings& rings, const EdgeGrid& grid) {
                 "too many edges are close to each other: more than 10^8 pairs of them would be looked at; "
                 "simplify the rings",
                 "/rings");
-  if (const auto contact = Contacts(rings, grid).first())
-    Refusal(rings, contact->first, contact->second).report();
+  const Contacts::Found found = Contacts(rings, grid).first();
+  if (found.contact != Contact::none) Refusal(rings, found).report();
 }
 
 std::uint32_t leftmost_corner(const PolygonRings& rings, std::size_t k) {
