@@ -9,6 +9,7 @@
 #include "proto/arguments.h"
 #include "proto/fields.h"
 #include "proto/find_row.h"
+#include "proto/formats/polygon.h"
 #include "proto/picture.h"
 #include "proto/source_reader.h"
 
@@ -163,8 +164,10 @@ AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limit
 std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer) {
   Fields fields(value, pointer);
   const std::string type = fields.text("type").value_or("torus");
+  if (type == "polygon" || is_geojson_type(type)) return read_polygon(value, pointer);
   if (type != "torus")
-    throw Error(ErrorCode::invalid_parameters, "unknown domain; there is: torus", fields.pointer_to("type"));
+    throw Error(ErrorCode::invalid_parameters,
+                "unknown domain; there are: torus, polygon, and GeoJSON's types", fields.pointer_to("type"));
   const double width = fields.number("width").value_or(1), height = fields.number("height").value_or(1);
   fields.refuse_unknown();
   try {
@@ -175,6 +178,7 @@ std::shared_ptr<const Domain> read_domain(const json& value, const std::string& 
 }
 
 nlohmann::ordered_json domain_to_json(const Domain& domain) {
+  if (const auto* polygon = dynamic_cast<const Polygon*>(&domain)) return polygon_to_json(*polygon);
   const Box box = domain.box();
   return {{"type", domain.type()}, {"width", box.size.x}, {"height", box.size.y}};
 }

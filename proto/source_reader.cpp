@@ -17,7 +17,12 @@ using nlohmann::json;
 
 std::shared_ptr<const Domain> domain_field(Fields& fields) {
   const json* value = fields.find("domain");
-  return value != nullptr ? read_domain(*value, fields.pointer_to("domain")) : nullptr;
+  if (value == nullptr) return nullptr;
+  auto domain = read_domain(*value, fields.pointer_to("domain"));
+  if (!is_torus(*domain))
+    throw Error(ErrorCode::invalid_parameters, "no operation takes this domain yet; there is: torus",
+                fields.pointer_to("domain") + "/type");
+  return domain;
 }
 
 std::shared_ptr<const Domain> or_unit_torus(std::shared_ptr<const Domain> domain) {

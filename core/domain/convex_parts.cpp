@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <tuple>
 
 namespace wellspaced {
 namespace {
@@ -32,16 +32,25 @@ double ConvexParts::Part::at(double x) const {
 }
 
 void ConvexParts::clip(std::span<const Line> lines) {
+  Vec2 extent{};
+  for (const Line& line : lines)
+    extent = extent + Vec2{std::abs(line.to.x - line.from.x), std::abs(line.to.y - line.from.y)};
+  transposed_ = extent.x > extent.y;
+  rectangle_ = {given(rectangle_.low), given(rectangle_.high)};
   parts_.clear();
   for (const Line& line : lines) {
-    std::array<Vec2, 2> s{line.from, line.to};
+    std::array<Vec2, 2> s{given(line.from), given(line.to)};
     const bool rightward = s[0].x <= s[1].x;
     if (!rightward) std::swap(s[0], s[1]);
     if (!clip_axis(&Vec2::x, rectangle_.low.x, rectangle_.high.x, s)) continue;
     if (!clip_axis(&Vec2::y, rectangle_.low.y, rectangle_.high.y, s)) continue;
     for (Vec2& p : s) p.x = std::clamp(p.x, rectangle_.low.x, rectangle_.high.x);
-    parts_.push_back({s[0], s[1], rightward});
+    parts_.push_back({s[0], s[1], rightward != transposed_});
   }
+  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+    return std::tie(a.left.x, a.left.y, a.right.x, a.right.y) <
+           std::tie(b.left.x, b.left.y, b.right.x, b.right.y);
+  });
 }
 
 void ConvexParts::collect_stops() {
@@ -65,26 +74,34 @@ bool ConvexParts::lowest_is_inside(double left, double right) const {
     if (height(k) > height(best)) best = k;
   bool inside = false;
   if (right - left > narrow_ || crossings_.size() == 2) {
-    inside = is_inside_({(left + right) / 2, (crossings_[best].left + crossings_[best].right +
-                                              crossings_[best - 1].left + crossings_[best - 1].right) /
-                                                 4});
+    inside = is_inside_(given({(left + right) / 2, (crossings_[best].left + crossings_[best].right +
+                                                    crossings_[best - 1].left + crossings_[best - 1].right) /
+                                                       4}));
   } else {
-    inside = best > 1 ? parts_[static_cast<std::size_t>(crossings_[best - 1].part)].rightward
-                      : !parts_[static_cast<std::size_t>(crossings_[best].part)].rightward;
+    inside = best > 1 ? parts_[static_cast<std::size_t>(crossings_[best - 1].part)].inside_above
+                      : !parts_[static_cast<std::size_t>(crossings_[best].part)].inside_above;
   }
   return inside == (best % 2 == 1);
 }
 
-void ConvexParts::cut_slab(double left, double right) {
+/// Parts are in the order of their left ends, and slabs go to the right.
+void ConvexParts::collect_crossings(double left, double right) {
+  for (; next_part_ < parts_.size() && parts_[next_part_].left.x <= left; ++next_part_)
+    active_.push_back(static_cast<int>(next_part_));
+  const auto at = [&](int k) -> const Part& { return parts_[static_cast<std::size_t>(k)]; };
+  std::erase_if(active_, [&](int k) { return at(k).right.x < right; });
   crossings_ = {{bottom, rectangle_.low.y, rectangle_.low.y}};
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (parts_[k].left.x <= left && parts_[k].right.x >= right)
-      crossings_.push_back({static_cast<int>(k), parts_[k].at(left), parts_[k].at(right)});
+  for (const int k : active_) crossings_.push_back({k, at(k).at(left), at(k).at(right)});
   std::sort(crossings_.begin() + 1, crossings_.end(), [](const Crossing& a, const Crossing& b) {
     const double sum_a = a.left + a.right, sum_b = b.left + b.right;
     return sum_a != sum_b ? sum_a < sum_b : a.part < b.part;
   });
   crossings_.push_back({top, rectangle_.high.y, rectangle_.high.y});
+  work_ += static_cast<double>(crossings_.size());
+}
+
+void ConvexParts::cut_slab(double left, double right) {
+  collect_crossings(left, right);
   next_.clear();
   for (std::size_t k = lowest_is_inside(left, right) ? 1 : 2; k < crossings_.size(); k += 2)
     add(crossings_[k - 1], crossings_[k], left, right);
@@ -111,10 +128,12 @@ void ConvexParts::add(const Crossing& below, const Crossing& above, double left,
 }
 
 void ConvexParts::emit(const Trapezoid& t, ChartPieces& out) {
-  out.corners.push_back({t.left, t.low_left});
-  out.corners.push_back({t.right, t.low_right});
-  if (t.high_right > t.low_right) out.corners.push_back({t.right, t.high_right});
-  if (t.high_left > t.low_left) out.corners.push_back({t.left, t.high_left});
+  const std::size_t first = out.corners.size();
+  out.corners.push_back(given({t.left, t.low_left}));
+  out.corners.push_back(given({t.right, t.low_right}));
+  if (t.high_right > t.low_right) out.corners.push_back(given({t.right, t.high_right}));
+  if (t.high_left > t.low_left) out.corners.push_back(given({t.left, t.high_left}));
+  if (transposed_) std::reverse(out.corners.begin() + static_cast<std::ptrdiff_t>(first), out.corners.end());
   out.close();
 }
 
@@ -122,12 +141,14 @@ void ConvexParts::cut(const Rectangle& rectangle, std::span<const Line> lines, C
   rectangle_ = rectangle;
   done_.clear();
   open_.clear();
+  active_.clear();
+  next_part_ = 0;
   clip(lines);
   collect_stops();
   for (std::size_t k = 1; k < stops_.size(); ++k) cut_slab(stops_[k - 1], stops_[k]);
   done_.insert(done_.end(), open_.begin(), open_.end());
   const auto full = [&](const Trapezoid& t) {
-    return t.below == bottom && t.above == top && t.left == rectangle.low.x && t.right == rectangle.high.x;
+    return t.below == bottom && t.above == top && t.left == rectangle_.low.x && t.right == rectangle_.high.x;
   };
   whole_ = done_.size() == 1 && full(done_.front());
   for (const Trapezoid& t : done_) emit(t, out);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/domain/convex_parts.h"
+#include "core/error.h"
 
 namespace wellspaced {
 namespace {
@@ -34,18 +35,26 @@ void copy(const ChartPieces& from, std::size_t piece, Vec2 origin, ChartPieces& 
 
 PolygonPieces::PolygonPieces(const PolygonRings& rings, const PolygonLocator& locator)
     : low_(rings.low()), size_(rings.size()) {
-  const double most_pairs = 0x1p23 + 64 * static_cast<double>(rings.edges().size());
-  levels_.push_back(make_level(rings, locator, locator.grid()));
-  EdgeGrid grid(rings, locator.grid());
-  for (; grid.pairs() <= most_pairs; grid = EdgeGrid(rings, grid)) {
-    levels_.push_back(make_level(rings, locator, grid));
-    if (grid.squares() == 1) break;
+  const auto edges = static_cast<double>(rings.edges().size());
+  auto level = make_level(rings, locator, locator.grid(), 0x1p25 + 64 * edges);
+  if (!level)
+    throw Error(ErrorCode::degenerate_input,
+                "too many edges are beside and above each other in the same places; simplify the rings",
+                "/rings");
+  const double most_work = std::max(level->work, 0x1p20 + 32 * edges);
+  double corners = 0;
+  for (EdgeGrid grid(rings, locator.grid()); level; grid = EdgeGrid(rings, grid)) {
+    levels_.push_back(std::move(*level));
+    corners += static_cast<double>(levels_.back().pieces.corners.size());
+    if (levels_.back().first.size() == 2 || corners > 0x1p23 + 16 * edges) break;
+    level = make_level(rings, locator, grid, most_work);
   }
 }
 
-PolygonPieces::Level PolygonPieces::make_level(const PolygonRings& rings, const PolygonLocator& locator,
-                                               const EdgeGrid& grid) {
-  Level level{grid.side(), grid.columns(), grid.rows(), {}, {}, {}};
+std::optional<PolygonPieces::Level> PolygonPieces::make_level(const PolygonRings& rings,
+                                                              const PolygonLocator& locator,
+                                                              const EdgeGrid& grid, double most) {
+  Level level{grid.side(), grid.columns(), grid.rows(), 0, {}, {}, {}};
   level.full.resize(grid.squares());
   ConvexParts parts([&](Vec2 local) { return locator.is_just_inside(rings.low() + local); },
                     1e-14 * grid.side() + 4 * rings.ulp());
@@ -63,12 +72,14 @@ PolygonPieces::Level PolygonPieces::make_level(const PolygonRings& rings, const 
         lines.push_back({rings.local(rings.edges()[e].from), rings.local(rings.edges()[e].to)});
       const double x = column * level.side, y = row * level.side;
       parts.cut({{x, y}, {(column + 1) * level.side, (row + 1) * level.side}}, lines, level.pieces);
+      if (parts.work() > most) return {};
       if (!parts.is_whole()) continue;
       level.full[square] = true;
       level.pieces.ends.pop_back();
       level.pieces.corners.resize(level.pieces.ends.empty() ? 0 : level.pieces.ends.back());
     }
   level.first.push_back(static_cast<std::uint32_t>(level.pieces.ends.size()));
+  level.work = parts.work();
   return level;
 }
 
@@ -87,14 +98,20 @@ void PolygonPieces::near(Vec2 p, double reach, ChartPieces& out) const {
   };
   const int i0 = index(c.x - reach, level.columns), i1 = index(c.x + reach, level.columns);
   const int j0 = index(c.y - reach, level.rows), j1 = index(c.y + reach, level.rows);
+  const auto is_near = [&](int column, int row) {
+    const double x = std::max({0.0, column * level.side - c.x, c.x - (column + 1) * level.side});
+    const double y = std::max({0.0, row * level.side - c.y, c.y - (row + 1) * level.side});
+    return x * x + y * y <= reach * reach;
+  };
   Run last;
   for (int row = j0; row <= j1; ++row) {
     const std::size_t begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns);
     bool goes_on = false;
     for (int column = i0; column <= i1; ++column) {
       const std::size_t square = begin + static_cast<std::size_t>(column);
-      for (std::uint32_t k = level.first[square]; k < level.first[square + 1]; ++k)
-        copy(level.pieces, k, c, out);
+      if (is_near(column, row))
+        for (std::uint32_t k = level.first[square]; k < level.first[square + 1]; ++k)
+          copy(level.pieces, k, c, out);
       if (!level.full[square]) continue;
       Run run{column, column, row, row};
       while (run.last_column < i1 && level.full[begin + static_cast<std::size_t>(run.last_column) + 1])

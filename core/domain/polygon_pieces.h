@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/domain/domain.h"
@@ -11,8 +12,10 @@ namespace wellspaced {
 /// Convex pieces of a polygon near a place, from tables: squares of a few sizes, each with its pieces.
 ///
 /// Guarantees: the pieces of squares of one size are the polygon and don't overlap, but for rounding.
+/// Errors of the constructor: degenerate_input if edges go in all directions beside each other so often that
+/// cutting the squares takes too long.
 /// Cost: a query O(edges within about twice the reach), whatever the reach, as long as there are squares as
-/// large; their size ends where squares would hold too many edges.
+/// large; their size ends where tables would become too large.
 class PolygonPieces {
  public:
   PolygonPieces(const PolygonRings& rings, const PolygonLocator& locator);
@@ -24,12 +27,15 @@ class PolygonPieces {
   struct Level {
     double side = 0;
     int columns = 0, rows = 0;
+    double work = 0;  ///< that making it took, in crossings of edges and slabs
     std::vector<bool> full;
     std::vector<std::uint32_t> first;  ///< piece of each square
     ChartPieces pieces;                ///< of squares that aren't full
   };
 
-  static Level make_level(const PolygonRings& rings, const PolygonLocator& locator, const EdgeGrid& grid);
+  /// Nothing if that is more work than `most`.
+  static std::optional<Level> make_level(const PolygonRings& rings, const PolygonLocator& locator,
+                                         const EdgeGrid& grid, double most);
   const Level& level_for(double reach) const;
 
   Vec2 low_, size_;
