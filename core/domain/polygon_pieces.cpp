@@ -26,9 +26,18 @@ void emit(const Run& run, double side, Vec2 origin, ChartPieces& out) {
   out.close();
 }
 
+/// Corners that rounding makes one are one; what is no polygon any more is left out.
 void copy(const ChartPieces& from, std::size_t piece, Vec2 origin, ChartPieces& out) {
-  for (const Vec2 corner : from[piece]) out.corners.push_back(corner - origin);
-  out.close();
+  const std::size_t first = out.corners.size();
+  for (const Vec2 corner : from[piece]) {
+    const Vec2 moved = corner - origin;
+    if (out.corners.size() == first || out.corners.back() != moved) out.corners.push_back(moved);
+  }
+  while (out.corners.size() > first && out.corners.back() == out.corners[first]) out.corners.pop_back();
+  if (out.corners.size() - first < 3)
+    out.corners.resize(first);
+  else
+    out.close();
 }
 
 }  // namespace

@@ -11,11 +11,11 @@ namespace wellspaced {
 
 /// Convex pieces of a polygon near a place, from tables: squares of a few sizes, each with its pieces.
 ///
-/// Guarantees: the pieces of squares of one size are the polygon and don't overlap, but for rounding.
-/// Errors of the constructor: degenerate_input if edges go in all directions beside each other so often that
-/// cutting the squares takes too long.
-/// Cost: a query O(edges within about twice the reach), whatever the reach, as long as there are squares as
-/// large; their size ends where tables would become too large.
+/// Guarantees: the pieces of squares of one size are the polygon and don't overlap, but for rounding; no two
+/// corners of a piece that follow each other are the same. Errors of the constructor: degenerate_input if
+/// edges go in all directions beside each other so often that cutting the squares takes too long. Cost: a
+/// query O(edges within about twice the reach), whatever the reach, as long as there are squares as large;
+/// their size ends where tables would become too large.
 class PolygonPieces {
  public:
   PolygonPieces(const PolygonRings& rings, const PolygonLocator& locator);

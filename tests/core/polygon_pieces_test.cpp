@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -66,6 +67,7 @@ TEST(PolygonPieces, AreConvexAndCounterClockwise) {
         for (std::size_t i = 0; i < piece.size(); ++i) {
           const Vec2 a = piece[i], b = piece[(i + 1) % piece.size()], c = piece[(i + 2) % piece.size()];
           ASSERT_GE(cross(b - a, c - b), -rounding);
+          ASSERT_NE(a, b);
         }
       }
     }
@@ -120,6 +122,17 @@ TEST(PolygonPieces, AreFewWhateverTheReach) {
   for (const double reach : {0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0}) {
     ASSERT_TRUE(polygon.pieces({0.001, 0.002, 0}, reach, pieces));
     EXPECT_LE(pieces.ends.size(), 30u) << reach;
+  }
+}
+
+/// Many edges side by side don't change that: squares as large as the reach hold each of them once.
+TEST(PolygonPieces, AreFewOfCombs) {
+  for (const double angle : {0.0, std::numbers::pi / 2, 1.0}) {
+    const Polygon polygon(turned({comb(500)}, angle));
+    ChartPieces pieces;
+    Rng rng(1);
+    ASSERT_TRUE(polygon.pieces(polygon.random_point(rng), 2, pieces));
+    EXPECT_LE(pieces.ends.size(), 10 * polygon.boundary().size());
   }
 }
 
