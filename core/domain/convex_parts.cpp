@@ -26,9 +26,8 @@ bool clip_axis(double Vec2::*axis, double low, double high, std::array<Vec2, 2>&
 double ConvexParts::Part::at(double x) const {
   if (x <= left.x) return left.y;
   if (x >= right.x) return right.y;
-  const double y = left.y + (x - left.x) * ((right.y - left.y) / (right.x - left.x));
   const auto [low, high] = std::minmax(left.y, right.y);
-  return std::clamp(y, low, high);
+  return std::clamp(left.y + (x - left.x) * slope, low, high);
 }
 
 void ConvexParts::clip(std::span<const Line> lines) {
@@ -45,7 +44,8 @@ void ConvexParts::clip(std::span<const Line> lines) {
     if (!clip_axis(&Vec2::x, rectangle_.low.x, rectangle_.high.x, s)) continue;
     if (!clip_axis(&Vec2::y, rectangle_.low.y, rectangle_.high.y, s)) continue;
     for (Vec2& p : s) p.x = std::clamp(p.x, rectangle_.low.x, rectangle_.high.x);
-    parts_.push_back({s[0], s[1], rightward != transposed_});
+    const double slope = s[1].x > s[0].x ? (s[1].y - s[0].y) / (s[1].x - s[0].x) : 0;
+    parts_.push_back({s[0], s[1], slope, rightward != transposed_});
   }
   std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
     return std::tie(a.left.x, a.left.y, a.right.x, a.right.y) <
@@ -63,39 +63,52 @@ void ConvexParts::collect_stops() {
   stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
 }
 
-/// Asked in the middle of the highest gap, where rounding can't hide a line; beside lines that are too steep
-/// for that, the nearest line's direction tells.
+double ConvexParts::twice_height(std::size_t gap) const {
+  const Crossing &below = crossings_[gap - 1], &above = crossings_[gap];
+  return above.left + above.right - below.left - below.right;
+}
+
+/// Told by the direction of a line beside the highest gap, if no other line is so close to it that rounding
+/// may have changed their order. If there is none, that is asked in the middle of the gap, where rounding
+/// can't hide a line; but in slabs too narrow for that the order doesn't matter.
 bool ConvexParts::lowest_is_inside(double left, double right) const {
   std::size_t best = 1;
-  const auto height = [&](std::size_t k) {
-    return crossings_[k].left + crossings_[k].right - crossings_[k - 1].left - crossings_[k - 1].right;
+  const std::size_t last = crossings_.size() - 1;
+  for (std::size_t k = 2; k <= last; ++k)
+    if (twice_height(k) > twice_height(best)) best = k;
+  const auto part = [&](std::size_t k) -> const Part& {
+    return parts_[static_cast<std::size_t>(crossings_[k].part)];
   };
-  for (std::size_t k = 2; k < crossings_.size(); ++k)
-    if (height(k) > height(best)) best = k;
+  const double width = right - left, side = rectangle_.high.y - rectangle_.low.y;
+  const double apart = side * (1e-9 + narrow_ / width);
+  const bool is_narrow = width <= narrow_;
   bool inside = false;
-  if (right - left > narrow_ || crossings_.size() == 2) {
+  if (best > 1 && (is_narrow || best == 2 || twice_height(best - 1) > apart))
+    inside = part(best - 1).inside_above;
+  else if (best < last && (is_narrow || best + 1 == last || twice_height(best + 1) > apart))
+    inside = !part(best).inside_above;
+  else
     inside = is_inside_(given({(left + right) / 2, (crossings_[best].left + crossings_[best].right +
                                                     crossings_[best - 1].left + crossings_[best - 1].right) /
                                                        4}));
-  } else {
-    inside = best > 1 ? parts_[static_cast<std::size_t>(crossings_[best - 1].part)].inside_above
-                      : !parts_[static_cast<std::size_t>(crossings_[best].part)].inside_above;
-  }
   return inside == (best % 2 == 1);
 }
 
-/// Parts are in the order of their left ends, and slabs go to the right.
+/// Parts are in the order of their left ends, and slabs go to the right. Lines that were in order in the last
+/// slab are so in this one, so that little is left to sort.
 void ConvexParts::collect_crossings(double left, double right) {
   for (; next_part_ < parts_.size() && parts_[next_part_].left.x <= left; ++next_part_)
     active_.push_back(static_cast<int>(next_part_));
-  const auto at = [&](int k) -> const Part& { return parts_[static_cast<std::size_t>(k)]; };
-  std::erase_if(active_, [&](int k) { return at(k).right.x < right; });
   crossings_ = {{bottom, rectangle_.low.y, rectangle_.low.y}};
-  for (const int k : active_) crossings_.push_back({k, at(k).at(left), at(k).at(right)});
-  std::sort(crossings_.begin() + 1, crossings_.end(), [](const Crossing& a, const Crossing& b) {
-    const double sum_a = a.left + a.right, sum_b = b.left + b.right;
-    return sum_a != sum_b ? sum_a < sum_b : a.part < b.part;
-  });
+  for (const int k : active_) {
+    const Part& part = parts_[static_cast<std::size_t>(k)];
+    if (part.right.x < right) continue;
+    crossings_.push_back({k, part.at(left), part.at(right)});
+    for (std::size_t i = crossings_.size() - 1; i > 1 && crossings_[i].is_below(crossings_[i - 1]); --i)
+      std::swap(crossings_[i], crossings_[i - 1]);
+  }
+  active_.clear();
+  for (std::size_t i = 1; i < crossings_.size(); ++i) active_.push_back(crossings_[i].part);
   crossings_.push_back({top, rectangle_.high.y, rectangle_.high.y});
   work_ += static_cast<double>(crossings_.size());
 }
@@ -103,9 +116,11 @@ void ConvexParts::collect_crossings(double left, double right) {
 void ConvexParts::cut_slab(double left, double right) {
   collect_crossings(left, right);
   next_.clear();
+  next_open_ = 0;
   for (std::size_t k = lowest_is_inside(left, right) ? 1 : 2; k < crossings_.size(); k += 2)
     add(crossings_[k - 1], crossings_[k], left, right);
-  done_.insert(done_.end(), open_.begin(), open_.end());
+  for (const Trapezoid& t : open_)
+    if (t.above != continued) done_.push_back(t);
   open_.swap(next_);
 }
 
@@ -117,12 +132,13 @@ void ConvexParts::add(const Crossing& below, const Crossing& above, double left,
               below.left,  std::max(below.left, above.left),
               below.right, std::max(below.right, above.right)};
   const auto same = [&](const Trapezoid& o) { return o.below == t.below && o.above == t.above; };
-  const auto found = std::find_if(open_.begin(), open_.end(), same);
+  const auto found = std::find_if(open_.begin() + static_cast<std::ptrdiff_t>(next_open_), open_.end(), same);
   if (found != open_.end() && found->right == left) {
     t.left = found->left;
     t.low_left = found->low_left;
     t.high_left = found->high_left;
-    open_.erase(found);
+    found->above = continued;
+    next_open_ = static_cast<std::size_t>(found - open_.begin()) + 1;  // both are in order, upward
   }
   next_.push_back(t);
 }

@@ -39,10 +39,11 @@ class ConvexParts {
   double work() const { return work_; }
 
  private:
-  static constexpr int bottom = -1, top = -2;
+  static constexpr int bottom = -1, top = -2, continued = -3;
   /// A line's part in the rectangle, from left to right.
   struct Part {
     Vec2 left, right;
+    double slope;
     bool inside_above;
     double at(double x) const;
   };
@@ -53,12 +54,17 @@ class ConvexParts {
   struct Crossing {
     int part;
     double left, right;  ///< heights at both sides of the slab
+    bool is_below(const Crossing& o) const {
+      const double sum = left + right, other = o.left + o.right;
+      return sum != other ? sum < other : part < o.part;
+    }
   };
 
   void clip(std::span<const Line> lines);
   void collect_stops();
   void cut_slab(double left, double right);
   void collect_crossings(double left, double right);
+  double twice_height(std::size_t gap) const;  ///< between crossings gap - 1 and gap, in the slab's middle
   bool lowest_is_inside(double left, double right) const;
   void add(const Crossing& below, const Crossing& above, double left, double right);
   void emit(const Trapezoid& trapezoid, ChartPieces& out);
@@ -77,6 +83,7 @@ class ConvexParts {
   std::size_t next_part_ = 0;
   std::vector<Crossing> crossings_;     ///< of the present slab, upward
   std::vector<Trapezoid> open_, next_;  ///< that end at the slab's left and right side
+  std::size_t next_open_ = 0;
   std::vector<Trapezoid> done_;
 };
 

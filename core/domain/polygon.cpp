@@ -34,7 +34,7 @@ double length(const PolygonEdge& e) { return norm(e.to - e.from); }
 /// In the order in which they are made: each takes what is above it to be right.
 struct Polygon::Parts {
   explicit Parts(const std::vector<std::vector<Vec2>>& given)
-      : rings(given), locator(rings), triangles(triangulate(rings)) {
+      : rings(given), locator(rings), pieces(rings, locator), triangles(triangulate(rings)) {
     for (const PolygonEdge& e : rings.edges()) boundary_length += length(e);
     for (const auto& triangle : triangles) {
       const DomainTriangle t = corners_of(rings, triangle);
@@ -42,7 +42,6 @@ struct Polygon::Parts {
       area_up_to.push_back(area);
     }
     require_room();
-    pieces = std::make_unique<PolygonPieces>(rings, locator);
   }
 
   /// Everything else relies on it that there are points inside, and on each edge.
@@ -95,10 +94,10 @@ struct Polygon::Parts {
 
   PolygonRings rings;
   PolygonLocator locator;
+  PolygonPieces pieces;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<double> area_up_to;  ///< and with each triangle
   double area = 0, boundary_length = 0;
-  std::unique_ptr<const PolygonPieces> pieces;
 };
 
 Polygon::Polygon(const std::vector<std::vector<Vec2>>& rings) : parts_(std::make_unique<Parts>(rings)) {}
@@ -183,7 +182,7 @@ void Polygon::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors, std::
 
 bool Polygon::pieces(Vec3 base, double reach, ChartPieces& out) const {
   if (parts_->locator.surrounds(planar(base), reach)) return false;
-  parts_->pieces->near(planar(base), reach, out);
+  parts_->pieces.near(planar(base), reach, out);
   return true;
 }
 

@@ -45,7 +45,7 @@ void copy(const ChartPieces& from, std::size_t piece, Vec2 origin, ChartPieces& 
 PolygonPieces::PolygonPieces(const PolygonRings& rings, const PolygonLocator& locator)
     : low_(rings.low()), size_(rings.size()) {
   const auto edges = static_cast<double>(rings.edges().size());
-  auto level = make_level(rings, locator, locator.grid(), 0x1p25 + 64 * edges);
+  auto level = make_level(rings, locator, locator.grid(), 0x1p26 + 32 * edges);
   if (!level)
     throw Error(ErrorCode::degenerate_input,
                 "too many edges are beside and above each other in the same places; simplify the rings",

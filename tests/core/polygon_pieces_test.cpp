@@ -19,12 +19,6 @@ double area_of_piece(std::span<const Vec2> piece) {
   return twice / 2;
 }
 
-double area_of_pieces(const ChartPieces& pieces) {
-  double area = 0;
-  for (std::size_t k = 0; k < pieces.ends.size(); ++k) area += area_of_piece(pieces[k]);
-  return area;
-}
-
 bool holds(std::span<const Vec2> piece, Vec2 p) {
   for (std::size_t k = 0; k < piece.size(); ++k) {
     const Vec2 a = piece[k], b = piece[(k + 1) % piece.size()];

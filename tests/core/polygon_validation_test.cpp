@@ -259,6 +259,7 @@ bool is_valid(std::vector<std::vector<Whole>> rings) {
 TEST(PolygonValidation, TakesExactlyWhatIsValid) {
   Rng rng(17);
   int valid = 0, invalid_ones = 0;
+  ChartPieces pieces;
   for (int k = 0; k < 5000; ++k) {
     std::vector<std::vector<Whole>> rings(1 + rng.below(3));
     Rings doubles;
@@ -276,6 +277,10 @@ TEST(PolygonValidation, TakesExactlyWhatIsValid) {
     try {
       const Polygon polygon(doubles);
       ASSERT_NEAR(polygon.area(), area_of(doubles), 1e-12);
+      ASSERT_TRUE(polygon.pieces({0, 0, 0}, 0.2 * static_cast<double>(1 + k % 7), pieces));
+      if (k % 7 == 6) {  // all of it, with corners and edges right on the lines of the grid
+        ASSERT_NEAR(area_of_pieces(pieces), area_of(doubles), 1e-12);
+      }
     } catch (const Error& error) {
       taken = false;
       ASSERT_NE(error.code(), ErrorCode::internal);

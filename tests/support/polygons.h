@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/domain/domain.h"
 #include "core/rng.h"
 #include "core/vec.h"
 
@@ -92,6 +93,14 @@ inline double area_of(const Rings& rings) {
   for (std::size_t k = 0; k < rings.size(); ++k)
     area += (k == 0 ? 0.5L : -0.5L) * std::abs(shoelace(rings[k]));
   return static_cast<double>(area);
+}
+
+inline double area_of_pieces(const ChartPieces& pieces) {
+  double twice = 0;
+  for (std::size_t k = 0; k < pieces.ends.size(); ++k)
+    for (std::size_t i = 2; i < pieces[k].size(); ++i)
+      twice += cross(pieces[k][i - 1] - pieces[k][0], pieces[k][i] - pieces[k][0]);
+  return twice / 2;
 }
 
 /// Polygons of many kinds: round, jagged, thin, with holes, far from the origin, tiny and large.
