@@ -1,10 +1,10 @@
 #include "core/domain/polygon_validation.h"
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/domain/exact.h"
@@ -75,7 +75,9 @@ class Contacts {
   struct Found {
     Contact contact = Contact::none;
     std::uint32_t e = 0, f = 0;
-    friend auto operator<=>(const Found&, const Found&) = default;
+    friend bool operator<(const Found& a, const Found& b) {
+      return std::tie(a.contact, a.e, a.f) < std::tie(b.contact, b.e, b.f);
+    }
   };
 
   /// The most telling one of the first edges.
