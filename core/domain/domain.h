@@ -41,7 +41,7 @@ struct ChartPieces {
     ends.clear();
   }
   void close() { ends.push_back(corners.size()); }  ///< the corners since the last one are a polygon
-  std::span<Vec2> operator[](std::size_t k) {
+  std::span<const Vec2> operator[](std::size_t k) const {
     const std::size_t begin = k == 0 ? 0 : ends[k - 1];
     return {corners.data() + begin, ends[k] - begin};
   }

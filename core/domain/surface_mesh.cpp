@@ -156,6 +156,18 @@ Vec3 SurfaceMesh::step(Vec3 p, Vec2 u) const {
   return border_.step(*at.border, dot(u, border_.tangent(*at.border)));
 }
 
+Vec3 SurfaceMesh::place_at(Vec3 p, Vec2 u) const {
+  return u == Vec2{} ? p : position(go_straight(unfolding_, spot(p).place, u).end);
+}
+
+bool SurfaceMesh::holds(Vec3 p, Vec2 u) const { return go_straight(unfolding_, spot(p).place, u).part >= 1; }
+
+std::optional<Vec3> SurfaceMesh::boundary_point_at(Vec3 p) const {
+  if (border_.curves().empty()) return {};
+  const Spot at = spot(p);
+  return at.border ? std::optional(position(at.place)) : std::nullopt;
+}
+
 void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const {
   const MeshPlace place = locate(base);
   std::size_t kept = 0;

@@ -66,6 +66,9 @@ class SurfaceMesh final : public Domain {
   Freedom freedom(Vec3 p) const override;
   Vec2 possible(Vec3 p, Vec2 u) const override;
   Vec3 step(Vec3 p, Vec2 u) const override;
+  Vec3 place_at(Vec3 p, Vec2 u) const override;
+  bool holds(Vec3 p, Vec2 u) const override;
+  std::optional<Vec3> boundary_point_at(Vec3 p) const override;
   void localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const override;
   void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
                  std::span<HalfPlane> out) const override;

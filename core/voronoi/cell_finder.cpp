@@ -72,9 +72,9 @@ void CellFinder::cut(Vec2 u) {
 void CellFinder::clip_to_domain(Vec2 u) {
   clipped_ = has_boundary_ && points_->domain->pieces(base_, reach_, pieces_);
   if (!clipped_) return;
+  for (Vec2& corner : pieces_.corners) corner = corner - u;
   parts_.resize(pieces_.ends.size());
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (Vec2& corner : pieces_[k]) corner = corner - u;
     parts_[k].reset(pieces_[k]);
     for (const Cell::Corner& corner : cell_.corners())
       if (corner.label >= 0)

@@ -21,7 +21,8 @@ struct Rule {
 const std::vector<Rule> rules = {
     {"\"proto/", {"proto/", "server/"}},
     {"\"server/", {"server/"}},
-    {"<CGAL/", {"core/voronoi/delaunay.cpp", "core/domain/mesh_crossings.cpp"}},
+    {"<CGAL/",
+     {"core/voronoi/delaunay.cpp", "core/domain/mesh_crossings.cpp", "core/domain/polygon_triangles.cpp"}},
     {"<httplib", {"server/http/"}},
     {"<nlohmann/", {"proto/", "server/"}},
     {"<spdlog/", {"server/"}},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/domain/box_domain.h"
+#include "core/domain/polygon.h"
 #include "core/domain/sphere.h"
 #include "core/domain/torus.h"
 #include "core/generate/domain_darts.h"
@@ -23,6 +24,9 @@ inline std::vector<NamedDomain> domains_of_every_kind() {
           {"box", std::make_shared<BoxDomain>(1.5, 1)},
           {"strip along x", std::make_shared<BoxDomain>(1, 2, std::array<bool, 2>{true, false})},
           {"strip along y", std::make_shared<BoxDomain>(2, 1, std::array<bool, 2>{false, true})},
+          {"polygon",
+           std::make_shared<Polygon>(std::vector<std::vector<Vec2>>{
+               {{0.1, 0}, {1, 0.2}, {0.7, 0.6}, {1.1, 1}, {0, 1.1}}, {{0.3, 0.4}, {0.4, 0.7}, {0.55, 0.5}}})},
           {"sphere", std::make_shared<Sphere>(0.7)}};
 }
 

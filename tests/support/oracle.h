@@ -48,13 +48,13 @@ inline double brute_r_c(const PointSet& points, double tolerance) {
     double x, y, w, h;
   };
   const Box box = points.domain->box();
-  std::vector<Square> open = {{0, 0, box.size.x, box.size.y}}, next;
+  std::vector<Square> open = {{box.low.x, box.low.y, box.size.x, box.size.y}}, next;
   double best = 0;
   while (!open.empty()) {
     next.clear();
     for (const Square& s : open) {
       const double d = brute_distance(points, {s.x + s.w / 2, s.y + s.h / 2, 0});
-      best = std::max(best, d);
+      if (!points.domain->why_outside({s.x + s.w / 2, s.y + s.h / 2, 0})) best = std::max(best, d);
       if (d + std::hypot(s.w, s.h) / 2 <= best + tolerance) continue;
       const bool wide = s.w > s.h;
       const double w = wide ? s.w / 2 : s.w, h = wide ? s.h : s.h / 2;

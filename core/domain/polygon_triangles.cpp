@@ -1,0 +1,73 @@
+// Exact predicates and constrained triangulations, by CGAL.
+#include "core/domain/polygon_triangles.h"
+
+#include <utility>
+#include <vector>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include "core/domain/exact.h"
+
+namespace wellspaced {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<signed char, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+
+constexpr signed char unknown = -1, outside = 0, inside = 1;
+
+/// From the infinite face on, every constraint leads in or out.
+void tell_inside(const Triangulation& triangulation) {
+  for (const auto face : triangulation.all_face_handles()) face->info() = unknown;
+  std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
+  open.back()->info() = outside;
+  while (!open.empty()) {
+    const Triangulation::Face_handle face = open.back();
+    open.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const Triangulation::Face_handle next = face->neighbor(k);
+      if (next->info() != unknown) continue;
+      next->info() = face->is_constrained(k) ? static_cast<signed char>(inside - face->info()) : face->info();
+      open.push_back(next);
+    }
+  }
+}
+
+}  // namespace
+
+int orientation_by_cgal(Vec2 a, Vec2 b, Vec2 c) {
+  return static_cast<int>(
+      CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y)));
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangulate(const PolygonRings& rings) {
+  const auto count = static_cast<std::uint32_t>(rings.edges().size());
+  std::vector<std::pair<Kernel::Point_2, std::uint32_t>> corners;
+  for (std::uint32_t e = 0; e < count; ++e)
+    corners.push_back({Kernel::Point_2(rings.edges()[e].from.x, rings.edges()[e].from.y), e});
+  Triangulation triangulation;
+  triangulation.insert(corners.begin(), corners.end());
+  std::vector<Triangulation::Vertex_handle> vertices(count);
+  for (const auto v : triangulation.finite_vertex_handles()) vertices[v->info()] = v;
+  for (std::size_t k = 0; k < rings.rings(); ++k)
+    for (std::uint32_t e = rings.first(k); e < rings.first(k + 1); ++e)
+      triangulation.insert_constraint(vertices[e],
+                                      vertices[e + 1 == rings.first(k + 1) ? rings.first(k) : e + 1]);
+  tell_inside(triangulation);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto face : triangulation.finite_face_handles())
+    if (face->info() == inside)
+      triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  return triangles;
+}
+
+}  // namespace wellspaced
