@@ -57,9 +57,10 @@ ordered_json domain_schema() {
 }
 
 ordered_json points_schema() {
-  return {{"type", "array"},
-          {"description", "[[x, y], ...]"},
-          {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}};
+  return {
+      {"type", "array"},
+      {"description", "[[x, y], ...]; no two nearer to each other than 1e-10 of the domain's longer side"},
+      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}};
 }
 
 /// The fields of a method: its own parameters and the ones that all requests of its operation have.
