@@ -161,6 +161,10 @@ TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
        "/measures/0/range", "but the limit here is 4096 MiB; ask for a range of at most"},
       {"analyze", million + R"("spacing",{"measure":"periodogram","range":1000}]})", ErrorCode::too_large,
        "/measures/1/range", "ask for a range of at most"},
+      // Few points, but forty million numbers.
+      {"analyze",
+       R"({"points":{"generate":{"count":20}},"measures":[{"measure":"periodogram","range":1000}]})",
+       ErrorCode::too_large, "/measures/0/range", "ask for a range of at most 7"},
   });
 }
 
