@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "core/analyze/domain_certificate.h"
+#include "core/domain/torus.h"
 #include "core/large_vector.h"
 #include "core/parallel.h"
 #include "core/sort.h"
@@ -200,6 +202,8 @@ class PairSweep {
 }  // namespace
 
 std::optional<Certificate> certify(const PointSet& points, const Control& control, const StarSource& source) {
+  if (!can_be_certified(points)) return std::nullopt;
+  if (!is_torus(*points.domain)) return certify_domain(points, control);
   CoverageProof coverage(points);
   LargeVector<double> nearest(points.size(), infinity);  // only says how far it is worth to look for pairs
   source(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {

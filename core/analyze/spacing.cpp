@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 
+#include "core/analyze/domain_spacing.h"
 #include "core/analyze/spacing_star.h"
 #include "core/large_vector.h"
 #include "core/math.h"
@@ -60,6 +61,7 @@ class Summary {
     Spacing s;
     s.n = n_;
     s.r_f = r_f_;
+    s.r_f_free = r_f_;
     s.r_c = r_c_;
     s.beta = r_c_ / r_f_;
     require_possible(s, area_);
@@ -103,6 +105,7 @@ LargeVector<StarMeasure> measure_stars(const PointSet& points, const Control& co
 }  // namespace
 
 Spacing measure_spacing(const PointSet& points, const Control& control) {
+  if (!is_plain_torus(points)) return measure_domain_spacing(points, control).global;
   const auto stars = measure_stars(points, control);
   Summary summary(points);
   for (std::size_t i = 0; i < stars.size(); ++i) {
@@ -130,6 +133,7 @@ GlobalRatio measure_ratio(const PointSet& points, const Control& control) {
 }
 
 LocalSpacing measure_local_spacing(const PointSet& points, const Control& control) {
+  if (!is_plain_torus(points)) return measure_domain_spacing(points, control);
   const auto stars = measure_stars(points, control);
   Summary summary(points);
   LocalSpacing result;

@@ -12,7 +12,8 @@ namespace wellspaced {
 /// How well spaced a point set is. Lengths are domain lengths, angles degrees, ratios pure numbers.
 struct Spacing {
   std::size_t n = 0;
-  double r_f = 0;   ///< conflict radius: smallest distance between two samples
+  double r_f = 0;       ///< conflict radius: smallest distance between two samples
+  double r_f_free = 0;  ///< the same without pairs of two corners of the domain, which can't move
   double r_c = 0;   ///< coverage radius: largest distance from a point of the domain to its nearest sample
   double beta = 0;  ///< r_c / r_f, the global ratio; at least 1/sqrt(3) in the plane
   double beta_i_max = 0,
@@ -33,11 +34,15 @@ struct LocalSpacing {
   std::vector<double> beta_i;
 };
 
-/// Measures a point set on a torus.
+/// Measures a point set on any domain.
+///
+/// On domains with a boundary cells end there; triangles are those of the Delaunay triangulation inside.
+/// Where the set has a sizing function, r_f, r_c and r_f_free are in units of r(x), taken at the sample (for
+/// a distance: the smaller one), and all else in the units of MovingSet instead of d_hex.
 ///
 /// Guarantees
 /// 1. r_f, r_c, beta and each beta_i are those of the exact Delaunay triangulation of the points up to 1e-12
-/// relative.
+/// relative; on surface meshes, whose charts are right to second order only, to what docs/domains.md says.
 /// 2. For beta: angles lie in [asin(1/(2 beta)), 180 - 2 asin(1/(2 beta))], edges in [1, 2 beta].
 /// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
 /// O(n log n), about 0.45 us a point and thread for even sets. Determinism: the same bits on any number of

@@ -99,6 +99,18 @@ Vec3 BoxDomain::step(Vec3 p, Vec2 u) const {
   return {to[0], to[1], 0};
 }
 
+Vec3 BoxDomain::place_at(Vec3 p, Vec2 u) const {
+  const Vec2 at{p.x + u.x, p.y + u.y};
+  return {periodic_[0] ? wrap(at.x, size_[0]) : std::clamp(at.x, 0.0, size_[0]),
+          periodic_[1] ? wrap(at.y, size_[1]) : std::clamp(at.y, 0.0, size_[1]), 0};
+}
+
+bool BoxDomain::holds(Vec3 p, Vec2 u) const {
+  const double to[2] = {p.x + u.x, p.y + u.y};
+  const auto within = [&](std::size_t a) { return periodic_[a] || (to[a] >= 0 && to[a] <= size_[a]); };
+  return within(0) && within(1);
+}
+
 void BoxDomain::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors, std::span<HalfPlane> out) const {
   flat_bisectors(u, neighbors, out);
 }

@@ -29,6 +29,8 @@ class BoxDomain final : public Domain {
   Freedom freedom(Vec3 p) const override;
   Vec2 possible(Vec3 p, Vec2 u) const override;
   Vec3 step(Vec3 p, Vec2 u) const override;
+  Vec3 place_at(Vec3 p, Vec2 u) const override;
+  bool holds(Vec3 p, Vec2 u) const override;
   void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
                  std::span<HalfPlane> out) const override;
   double chart_to_distance(double u) const override { return u; }

@@ -120,6 +120,13 @@ class Domain {
   /// of p. Requires: u == possible(p, u), but for rounding.
   virtual Vec3 step(Vec3 p, Vec2 u) const = 0;
 
+  /// The place that the tangent vector u at p leads to, whatever the freedom of p. Requires: it is in the
+  /// domain, but for rounding.
+  virtual Vec3 place_at(Vec3 p, Vec2 u) const { return step(p, u); }
+
+  /// Whether there is a place of the domain at the tangent vector u at p.
+  virtual bool holds(Vec3, Vec2) const { return true; }
+
   /// Turns offsets from base, as a search in ambient space found them, into what `bisectors` takes, and drops
   /// neighbors that are farther than `reach` on the domain.
   virtual void localize(Vec3, double, std::vector<Neighbor>&) const {}

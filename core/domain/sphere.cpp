@@ -45,6 +45,15 @@ Sphere::Sphere(double radius) : radius_(radius) {
                 "/radius");
 }
 
+double Sphere::chord(double arc) const {
+  return 2 * radius_ * portable_cos_sin(std::min(arc / radius_, pi) / (4 * pi)).sin;
+}
+
+double Sphere::arc(double chord) const {
+  const double half = std::min(0.5 * chord / radius_, 1.0);
+  return 2 * radius_ * portable_atan2(half, std::sqrt((1 - half) * (1 + half)));
+}
+
 double Sphere::area() const { return 4 * pi * radius_ * radius_; }
 
 Box Sphere::box() const {

@@ -19,6 +19,8 @@ class Sphere final : public Domain {
   explicit Sphere(double radius = 1);
 
   double radius() const { return radius_; }
+  double chord(double arc) const;  ///< straight distance of points so far apart on the sphere
+  double arc(double chord) const;
 
   std::string_view type() const override { return "sphere"; }
   int dimension() const override { return 3; }

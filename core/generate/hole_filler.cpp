@@ -54,7 +54,7 @@ void HoleFiller::look(std::uint32_t i, double deeper_than) {
       const double length = norm(corners[k].at);
       if (!(length > 0)) continue;
       const double distance = domain.chart_to_distance(length);
-      const Vec3 at = domain.step(points_[i], (distance / length) * corners[k].at);
+      const Vec3 at = domain.place_at(points_[i], (distance / length) * corners[k].at);
       const std::optional<Vec3> on_rim = is_rim ? domain.boundary_point_at(at) : std::nullopt;
       if (is_rim && (!on_rim || domain.freedom(*on_rim).dimensions == 0)) continue;
       const Vec3 place = on_rim.value_or(at);

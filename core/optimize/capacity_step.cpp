@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
+#include "core/parallel.h"
 #include "core/voronoi/star_cell.h"
 
 namespace wellspaced {
@@ -68,6 +70,107 @@ bool capacity_step(StarMesh& mesh, std::size_t i, double most) {
   mesh.mark(i);
   mesh.legalize(suspects);
   return true;
+}
+
+namespace {
+
+/// An edge of a cell: the neighbor beyond it, the way there and the edge's length, in units.
+struct CellSide {
+  std::uint32_t neighbor;
+  Vec2 way;
+  double length;
+};
+
+std::vector<CellSide> sides_of(const MovingSet& set, std::size_t i, CellFinder& cells) {
+  std::vector<CellSide> sides;
+  for (const Cell& part : cells.parts()) {
+    const std::span<const Cell::Corner> corners = part.corners();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (corners[k].label < 0) continue;
+      const Neighbor& neighbor = cells.neighbors()[static_cast<std::size_t>(corners[k].label)];
+      const Vec2 end = corners[k + 1 == corners.size() ? 0 : k + 1].at;
+      sides.push_back({neighbor.id, (1 / set.unit(i)) * set.domain().way_to(set[i], neighbor),
+                       norm(end - corners[k].at) / set.unit(i)});
+    }
+  }
+  return sides;
+}
+
+double mean_inside(const MovingSet& set, const std::vector<double>& areas) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set.freedom(i).dimensions != 2) continue;
+    sum += areas[i];
+    ++count;
+  }
+  return count > 0 ? sum / count : 1;
+}
+
+/// Calls use(i, cells) with each point's cell at hand.
+template <class Use>
+void for_each_cell(const MovingSet& set, const Control& control, const Use& use) {
+  constexpr std::size_t block = 256;
+  parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
+    CellFinder cells = set.finder(control);
+    for (std::size_t i = begin; i < end; ++i) {
+      cells.load(static_cast<std::uint32_t>(i), set.reach(i));
+      cells.cell_at({});
+      use(i, cells);
+    }
+  });
+}
+
+double area_in_units(const MovingSet& set, std::size_t i, CellFinder& cells) {
+  return cells.moments().area / (set.unit(i) * set.unit(i));
+}
+
+/// What the cell of each point inside that deviates asks of a neighbor, for each unit of the edge between
+/// them.
+std::vector<double> pulls_of(const MovingSet& set, double most, const Control& control) {
+  std::vector<double> areas(set.size()), pulls(set.size());
+  for_each_cell(set, control, [&](std::size_t i, CellFinder& cells) {
+    areas[i] = area_in_units(set, i, cells);
+    for (const CellSide& side : sides_of(set, i, cells)) pulls[i] += side.length * side.length;
+  });
+  const double mean = mean_inside(set, areas);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double excess = areas[i] - mean;
+    const bool deviates = set.freedom(i).dimensions == 2 && std::abs(excess) > most * mean;
+    pulls[i] = deviates ? excess / pulls[i] : 0;
+  }
+  return pulls;
+}
+
+}  // namespace
+
+std::vector<double> area_deviations(const MovingSet& set, const Control& control) {
+  std::vector<double> areas(set.size());
+  for_each_cell(set, control,
+                [&](std::size_t i, CellFinder& cells) { areas[i] = area_in_units(set, i, cells); });
+  const double mean = mean_inside(set, areas);
+  for (std::size_t i = 0; i < set.size(); ++i)
+    areas[i] = set.freedom(i).dimensions == 2 ? areas[i] / mean - 1 : 0;
+  return areas;
+}
+
+std::size_t capacity_sweep(MovingSet& set, double most, const Control& control) {
+  const std::vector<double> pulls = pulls_of(set, most, control);
+  std::vector<Vec2> moves(set.size());
+  for_each_cell(set, control, [&](std::size_t j, CellFinder& cells) {
+    for (const CellSide& side : sides_of(set, j, cells))
+      moves[j] = moves[j] + (pulls[side.neighbor] * side.length / norm(side.way)) * side.way;
+  });
+  std::size_t moved = 0;
+  for (std::size_t j = 0; j < set.size(); ++j) {
+    const double length = norm(moves[j]);
+    const Vec2 move = length > longest_step ? (longest_step / length) * moves[j] : moves[j];
+    const Vec2 possible = set.domain().possible(set[j], set.unit(j) * move);
+    if (possible == Vec2{}) continue;
+    set.move_to(j, set.domain().step(set[j], possible));
+    set.mark(j);
+    ++moved;
+  }
+  return moved;
 }
 
 }  // namespace wellspaced

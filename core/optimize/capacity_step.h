@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -18,5 +20,13 @@ double area_deviation(const StarMesh& mesh, std::size_t i);
 /// a step is at most 0.2 d_hex long. Returns whether there was something to correct.
 /// Reference: Ahmed et al. 2017, the capacity constraint of the push-pull algorithm.
 bool capacity_step(StarMesh& mesh, std::size_t i, double most);
+
+/// Areas of all cells of a MovingSet, in the units of their points, as parts of the mean of those inside,
+/// less 1; 0 for points on the boundary, which have smaller cells by nature.
+std::vector<double> area_deviations(const MovingSet& set, const Control& control);
+
+/// capacity_step on any domain, for all points inside at once: each point goes half of what the cells of its
+/// neighbors ask of it together. Marks what has moved. How many points moved.
+std::size_t capacity_sweep(MovingSet& set, double most, const Control& control);
 
 }  // namespace wellspaced

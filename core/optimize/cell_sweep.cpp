@@ -93,21 +93,38 @@ class Sweeper {
   }
 
   void look_at_corners(std::size_t i) {
-    const Domain& domain = set_.domain();
-    const double unit = set_.unit(i), r_c = domain.distance_to_chart(targets_.r_c * unit);
+    double least = set_.unit(i);
     spokes_.clear();
     for (const Cell& part : finder_.parts()) {
-      for (const Cell::Corner& corner : part.corners())
-        if (corner.label >= 0) spokes_.push_back(id_of(corner.label));
+      for (const Cell::Corner& corner : part.corners()) {
+        if (corner.label < 0) continue;
+        spokes_.push_back(id_of(corner.label));
+        least = std::min(least, set_.unit(spokes_.back()));
+      }
+    }
+    const double r_c = set_.domain().distance_to_chart(targets_.r_c * least);
+    for (const Cell& part : finder_.parts()) {
       if (part.outradius2() <= r_c * r_c) continue;
       for_each_far_corner(part, r_c * r_c, [&](const Cell::Corner& corner, const Cell::Corner& before) {
-        const double in_chart = norm(corner.at), distance = domain.chart_to_distance(in_chart) / unit;
-        violates_ = true;
-        for (const std::int32_t label : {corner.label, before.label})
-          if (label >= 0) involved_.push_back(id_of(label));
-        move_ = move_ + (targets_.pull * (distance - targets_.r_c / margin) / in_chart) * corner.at;
+        look_at_corner(i, corner, before);
       });
     }
+  }
+
+  /// It is too far if it is so for any of the points around it; else those with smaller units would be the
+  /// only ones to move, and leave their place for good.
+  void look_at_corner(std::size_t i, const Cell::Corner& corner, const Cell::Corner& before) {
+    double unit = set_.unit(i);
+    for (const std::int32_t label : {corner.label, before.label})
+      if (label >= 0) unit = std::min(unit, set_.unit(id_of(label)));
+    const double in_chart = norm(corner.at);
+    const double distance = set_.domain().chart_to_distance(in_chart) / unit;
+    if (distance <= targets_.r_c) return;
+    violates_ = true;
+    for (const std::int32_t label : {corner.label, before.label})
+      if (label >= 0) involved_.push_back(id_of(label));
+    const double excess = targets_.pull * (distance - targets_.r_c / margin) * unit / set_.unit(i);
+    move_ = move_ + (excess / in_chart) * corner.at;
   }
 
   std::uint32_t id_of(std::int32_t label) const {

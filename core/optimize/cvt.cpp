@@ -10,18 +10,40 @@
 #include "core/optimize/lbfgs.h"
 #include "core/optimize/move_all.h"
 #include "core/optimize/require.h"
+#include "core/parallel.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_cell.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
 namespace {
 
-/// All cells of a state.
+/// All cells of a state, a StarMesh or a MovingSet.
 struct Cells {
   std::vector<Vec2> to_centroid;
   std::vector<double> area;
   double energy = 0;
   MeshRadii radii;
+
+  void evaluate(const MovingSet& set, const Control& control) {
+    constexpr std::size_t block = 256;
+    to_centroid.resize(set.size());
+    area.resize(set.size());
+    std::vector<MovingSet::CellIntegrals> all(set.size());
+    parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
+      CellFinder cells = set.finder(control);
+      for (std::size_t i = begin; i < end; ++i) all[i] = set.integrals(i, cells);
+    });
+    energy = 0;
+    radii = {std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      to_centroid[i] = set.free_part(i, all[i].to_centroid);
+      area[i] = all[i].mass;
+      energy += all[i].energy;
+      radii = {std::min(radii.shortest, all[i].radii.shortest),
+               std::max(radii.outermost, all[i].radii.outermost)};
+    }
+  }
 
   void evaluate(const StarMesh& mesh, const Control& control) {
     constexpr std::size_t between_checks = 8192;
@@ -57,6 +79,7 @@ struct Cells {
   }
 };
 
+template <class State>
 class Relaxation {
  public:
   Relaxation(const PointSet& input, const CvtOptions& options, Control& control)
@@ -94,6 +117,7 @@ class Relaxation {
   /// The same; 0 if not even the steepest descent leads down any more.
   double sweep_accelerated() {
     const std::vector<Vec2> gradient = cells_.gradient();
+    if (!input_.domain->is_flat()) lbfgs_.forget();  // each point's frame is another one now
     for (;;) {
       std::vector<Vec2> direction = lbfgs_.direction(gradient, cells_.inverse_diagonal(), control_);
       cap(direction);
@@ -117,7 +141,7 @@ class Relaxation {
   double descend(const std::vector<Vec2>& direction, double slope) {
     constexpr double enough = 1e-4;
     constexpr int most_tries = 5;
-    const StarMesh::Snapshot before = mesh_.snapshot();
+    const typename State::Snapshot before = mesh_.snapshot();
     const Cells cells_before = cells_;
     std::vector<Vec2> step = direction;
     double part = 1;
@@ -150,8 +174,8 @@ class Relaxation {
   const PointSet& input_;
   const CvtOptions& options_;
   Control& control_;
-  StarMesh mesh_;
-  BestState best_;
+  State mesh_;
+  BestState<State> best_;
   Cells cells_;
   Lbfgs lbfgs_;
   int sweeps_ = 0;
@@ -162,7 +186,8 @@ class Relaxation {
 OptimizeResult cvt(const PointSet& input, const CvtOptions& options, Control& control) {
   require_sweeps(options.max_sweeps);
   require_tolerance(options.tolerance);
-  return Relaxation(input, options, control).run();
+  if (is_plain_torus(input)) return Relaxation<StarMesh>(input, options, control).run();
+  return Relaxation<MovingSet>(input, options, control).run();
 }
 
 }  // namespace wellspaced

@@ -5,6 +5,7 @@
 #include "core/control.h"
 #include "core/optimize/optimize.h"
 #include "core/vec.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -31,5 +32,7 @@ OptimizeResult distmesh(const PointSet& input, const DistMeshOptions& options, C
 
 /// One sweep's moves, in units of d_hex. Requires: the mesh is Delaunay.
 std::vector<Vec2> distmesh_moves(const StarMesh& mesh, const Control& control);
+/// The same on any domain, each point in its own units, as far as its freedom lets it.
+std::vector<Vec2> distmesh_moves(const MovingSet& set, const Control& control);
 
 }  // namespace wellspaced

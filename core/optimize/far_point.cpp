@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "core/optimize/best_state.h"
+#include "core/optimize/nelder_mead.h"
 #include "core/optimize/require.h"
 #include "core/optimize/tournament.h"
 #include "core/voronoi/cell.h"
+#include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_mesh.h"
 
 namespace wellspaced {
@@ -114,22 +116,171 @@ class FarthestPoints {
   Tournament radius2_;  // of the largest circle around a triangle of the point
 };
 
-}  // namespace
+/// The same on any domain. Depths are in units, a place's being that of the point that it is seen from.
+/// Points on the boundary stay on their curve, and go to where they are farthest from all others there,
+/// within what they see.
+class FarthestPlaces {
+ public:
+  FarthestPlaces(MovingSet& set, const Control& control)
+      : set_(set), control_(control), finder_(set.finder(control)), depth_(set.size()) {
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      if (i % 256 == 0) control_.check();
+      depth_.set(i, look(i).depth);
+    }
+    mean_ = mean_nearest();
+  }
 
-OptimizeResult far_point(const PointSet& input, const FarPointOptions& options, Control& control) {
-  require_sweeps(options.max_sweeps);
-  require_tolerance(options.tolerance);
-  StarMesh mesh(input, control);
-  mesh.legalize_all(control);
-  BestState best(input, mesh, control);
+  /// How far the mean distance to the nearest point grew.
+  double sweep() {
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      control_.check();
+      if (set_.freedom(i).dimensions == 2) visit(i);
+      if (set_.freedom(i).dimensions == 1) slide(i);
+    }
+    const double mean = mean_nearest(), gain = mean - mean_;
+    mean_ = mean;
+    return gain;
+  }
+
+ private:
+  struct Hole {
+    double depth = 0;
+    Vec2 way;  // there, in the frame of the point that sees it
+  };
+
+  void load(std::size_t i) {
+    finder_.load(static_cast<std::uint32_t>(i), set_.reach(i));
+    finder_.cell_at({});
+  }
+
+  /// The deepest corner inside the domain of point i's cell.
+  Hole look(std::size_t i) {
+    load(i);
+    Hole deepest;
+    for (const Cell& part : finder_.parts()) {
+      const std::span<const Cell::Corner> corners = part.corners();
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        if (corners[k].label < 0 || corners[k == 0 ? corners.size() - 1 : k - 1].label < 0) continue;
+        const double length = norm(corners[k].at), distance = set_.domain().chart_to_distance(length);
+        if (distance / set_.unit(i) > deepest.depth)
+          deepest = {distance / set_.unit(i), (distance / length) * corners[k].at};
+      }
+    }
+    return deepest;
+  }
+
+  double nearest(std::size_t i) {
+    load(i);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Neighbor& neighbor : finder_.neighbors())
+      if (neighbor.id != i)
+        nearest = std::min(nearest, norm(set_.domain().way_to(set_[i], neighbor)) / set_.unit(i));
+    return nearest;
+  }
+
+  double mean_nearest() {
+    double sum = 0;
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      if (i % 256 == 0) control_.check();
+      sum += nearest(i);
+    }
+    return sum / static_cast<double>(set_.size());
+  }
+
+  void visit(std::size_t i) {
+    constexpr double worthwhile = 1 + 2e-6;  // by more than rounding
+    const Vec3 here = set_[i];
+    const double depth_here = nearest(i);
+    const std::vector<std::uint32_t> around = seen();
+    set_.take_out(i);
+    depth_.set(i, 0);
+    refresh(around);
+    const Hole hole = largest();
+    const std::size_t from = depth_.winner();
+    const Vec3 there = set_.domain().place_at(set_[from], hole.way);
+    const bool is_inside = !set_.domain().why_outside(there) && set_.domain().freedom(there).dimensions == 2;
+    set_.put_back(i, is_inside && hole.depth > worthwhile * depth_here ? there : here);
+    depth_.set(i, look(i).depth);
+    refresh(seen());
+  }
+
+  void slide(std::size_t i) {
+    constexpr int steps = 10;
+    const double size = set_.unit(i) / 10;
+    finder_.load(static_cast<std::uint32_t>(i), set_.reach(i));
+    const Vec2 along = set_.freedom(i).along;
+    const auto conflict = [&](double t) {
+      return -finder_.radii_at(set_.domain().possible(set_[i], t * along)).r_f;
+    };
+    const double best = nelder_mead_on_line(conflict, size, steps);
+    if (best == 0) return;
+    load(i);
+    const std::vector<std::uint32_t> before = seen();
+    set_.move_to(i, set_.domain().step(set_[i], set_.domain().possible(set_[i], best * along)));
+    depth_.set(i, look(i).depth);
+    refresh(seen());
+    refresh(before);
+  }
+
+  /// Those who share an edge with the cell that is at hand.
+  std::vector<std::uint32_t> seen() const {
+    std::vector<std::uint32_t> ids;
+    for (const Cell& part : finder_.parts())
+      for (const Cell::Corner& corner : part.corners())
+        if (corner.label >= 0) ids.push_back(finder_.neighbors()[static_cast<std::size_t>(corner.label)].id);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+  }
+
+  void refresh(const std::vector<std::uint32_t>& ids) {
+    for (const std::uint32_t j : ids) depth_.set(j, look(j).depth);
+  }
+
+  /// Keys of cells that changed without being a neighbor's are put right when they win.
+  Hole largest() {
+    for (;;) {
+      const std::size_t i = depth_.winner();
+      const Hole hole = look(i);
+      if (hole.depth >= depth_.key(i)) return hole;
+      depth_.set(i, hole.depth);
+    }
+  }
+
+  MovingSet& set_;
+  const Control& control_;
+  CellFinder finder_;
+  Tournament depth_;
+  double mean_ = 0;
+};
+
+template <class Points, class State>
+OptimizeResult relax(Points& points, BestState<State>& best, const FarPointOptions& options) {
   best.record(0, 0);
-  FarthestPoints points(mesh, control);
   for (int sweep = 1; sweep <= options.max_sweeps; ++sweep) {
     const double gain = points.sweep();
     best.record(sweep, static_cast<double>(sweep) / options.max_sweeps);
     if (gain < options.tolerance) break;
   }
   return best.result();
+}
+
+}  // namespace
+
+OptimizeResult far_point(const PointSet& input, const FarPointOptions& options, Control& control) {
+  require_sweeps(options.max_sweeps);
+  require_tolerance(options.tolerance);
+  if (is_plain_torus(input)) {
+    StarMesh mesh(input, control);
+    mesh.legalize_all(control);
+    BestState<StarMesh> best(input, mesh, control);
+    FarthestPoints points(mesh, control);
+    return relax(points, best, options);
+  }
+  MovingSet set(input, control);
+  BestState<MovingSet> best(input, set, control);
+  FarthestPlaces places(set, control);
+  return relax(places, best, options);
 }
 
 }  // namespace wellspaced

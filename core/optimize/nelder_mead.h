@@ -53,4 +53,34 @@ Trial nelder_mead(const Cost& cost, double size, int steps) {
   return simplex[0];
 }
 
+/// The same along a line from {0, size}, in one dimension: the cost of a number.
+template <class Cost>
+double nelder_mead_on_line(const Cost& cost, double size, int steps) {
+  double best = 0, worst = size, best_cost = cost(best), worst_cost = cost(worst);
+  const auto sort = [&] {
+    if (!(worst_cost < best_cost)) return;
+    std::swap(best, worst);
+    std::swap(best_cost, worst_cost);
+  };
+  const auto replace_worst = [&](double at, double at_cost) {
+    worst = at;
+    worst_cost = at_cost;
+  };
+  sort();
+  for (int step = 0; step < steps; ++step) {
+    const double reflected = 2 * best - worst, reflected_cost = cost(reflected);
+    if (reflected_cost < best_cost) {
+      const double expanded = 3 * best - 2 * worst, expanded_cost = cost(expanded);
+      expanded_cost < reflected_cost ? replace_worst(expanded, expanded_cost)
+                                     : replace_worst(reflected, reflected_cost);
+    } else {
+      const double nearer = reflected_cost < worst_cost ? reflected : worst;
+      const double contracted = 0.5 * (best + nearer);
+      replace_worst(contracted, cost(contracted));
+    }
+    sort();
+  }
+  return best;
+}
+
 }  // namespace wellspaced

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <string>
+#include <tuple>
 
 #include "core/analyze/spacing.h"
 #include "core/error.h"
 #include "core/optimize/nelder_mead.h"
 #include "core/sort.h"
-#include "core/voronoi/cell_finder.h"
+#include "core/voronoi/moving_set.h"
 
 namespace wellspaced {
 namespace {
@@ -34,27 +34,17 @@ void require_options(const OptBetaLocalOptions& o) {
     throw Error(ErrorCode::invalid_parameters, "damping must be in (0, 1]", "/damping");
 }
 
-/// Row by row, left to right; rows as high as the spacing.
+/// Row by row, left to right, on curved domains layer by layer; rows as high as the spacing.
 std::vector<std::uint32_t> scan_line_order(const PointSet& points, double spacing, const Control& control) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto row = [&](Vec3 p) { return std::floor(p.y / spacing); };
+  const auto key = [&](Vec3 p) {
+    return std::tuple(std::floor(p.z / spacing), std::floor(p.y / spacing), p.x);
+  };
   sort(order.begin(), order.end(), control, [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 p = points[a], q = points[b];
-    if (row(p) != row(q)) return row(p) < row(q);
-    return p.x != q.x ? p.x < q.x : a < b;
+    return std::tuple_cat(key(points[a]), std::tuple(a)) < std::tuple_cat(key(points[b]), std::tuple(b));
   });
   return order;
-}
-
-/// A grid cell is as wide as the spacing; white noise puts a dozen points in the fullest.
-void require_local(const NeighborGrid& grid) {
-  constexpr std::size_t most = 512;
-  if (grid.fullest_cell() <= most) return;
-  throw Error(ErrorCode::degenerate_input, "the points are so clustered that " +
-                                               std::to_string(grid.fullest_cell()) +
-                                               " of them lie within one mean spacing; remove repetitions, or "
-                                               "give these points a domain that they are spread over");
 }
 
 SweepRecord record(int sweep, const PointSet& points, const Control& control) {
@@ -62,17 +52,20 @@ SweepRecord record(int sweep, const PointSet& points, const Control& control) {
   return {sweep, ratio.beta(), ratio.r_c, ratio.r_f};
 }
 
+SweepRecord record(int sweep, const MovingSet& set, const Control& control) {
+  if (is_plain_torus(set.points())) return record(sweep, set.points(), control);  // faster
+  const MeshRadii radii = set.measure(control);
+  return {sweep, radii.outermost / radii.shortest, radii.outermost * set.spacing(),
+          radii.shortest * set.spacing()};
+}
+
 class Sweeper {
  public:
-  Sweeper(PointSet& points, double damping, const Control& control)
-      : points_(points),
-        spacing_(hexagonal_spacing(points.domain->area(), points.size())),
+  Sweeper(const PointSet& input, double damping, const Control& control)
+      : set_(input, control),
         damping_(damping),
-        order_(scan_line_order(points, spacing_, control)),
-        grid_(points, spacing_),
-        finder_(points, grid_, 2 * spacing_, control) {
-    require_local(grid_);
-  }
+        order_(scan_line_order(input, hexagonal_spacing(*input.domain, input.size()), control)),
+        finder_(set_.finder(control)) {}
 
   void sweep(const Control& control) {
     for (const std::uint32_t i : order_) {
@@ -81,24 +74,32 @@ class Sweeper {
     }
   }
 
+  const MovingSet& set() const { return set_; }
+
  private:
   void visit(std::uint32_t i) {
-    finder_.load(i);
-    const auto beta_i = [&](Vec2 u) {
-      const CellFinder::Radii radii = finder_.radii_at(u);
-      return radii.r_c / radii.r_f;
-    };
-    const Trial best = nelder_mead(beta_i, mps_rho * spacing_ / 10, nelder_mead_steps);
-    if (best.at == Vec2{}) return;
-    const Vec3 from = points_[i], to = points_.domain->step(from, damping_ * best.at);
-    points_.set(i, to);
-    grid_.move(i, from, to);
+    if (set_.freedom(i).dimensions == 0) return;
+    finder_.load(i, 2 * set_.unit(i));
+    const Vec2 best = set_.domain().possible(set_[i], damping_ * best_move(i));
+    if (best != Vec2{}) set_.move_to(i, set_.domain().step(set_[i], best));
   }
 
-  PointSet& points_;
-  double spacing_, damping_;
+  /// Over the domain, or along the curve that the point is on.
+  Vec2 best_move(std::uint32_t i) {
+    const Vec3 from = set_[i];
+    const double size = mps_rho * set_.unit(i) / 10;
+    const auto beta_i = [&](Vec2 u) {
+      const CellFinder::Radii radii = finder_.radii_at(set_.domain().possible(from, u));
+      return radii.r_c / radii.r_f;
+    };
+    if (set_.freedom(i).dimensions == 2) return nelder_mead(beta_i, size, nelder_mead_steps).at;
+    const Vec2 along = set_.freedom(i).along;
+    return nelder_mead_on_line([&](double t) { return beta_i(t * along); }, size, nelder_mead_steps) * along;
+  }
+
+  MovingSet set_;
+  double damping_;
   std::vector<std::uint32_t> order_;
-  NeighborGrid grid_;
   CellFinder finder_;
 };
 
@@ -107,18 +108,17 @@ class Sweeper {
 OptimizeResult opt_beta_local(const PointSet& input, const OptBetaLocalOptions& options, Control& control) {
   require_options(options);
   require_usable(input, control);
-  PointSet points = input;
   // Without damping, sweeps towards an easy target overshoot and make the global ratio worse.
-  Sweeper sweeper(points, options.damping.value_or(options.beta > 0.9 ? 0.7 : 1.0), control);
+  Sweeper sweeper(input, options.damping.value_or(options.beta > 0.9 ? 0.7 : 1.0), control);
   OptimizeResult result{input, false, 0, {record(0, input, control)}};
   double best_beta = result.history[0].beta;
   while (best_beta > options.beta && result.sweeps < options.max_sweeps) {
     sweeper.sweep(control);
-    const SweepRecord now = record(++result.sweeps, points, control);
+    const SweepRecord now = record(++result.sweeps, sweeper.set(), control);
     result.history.push_back(now);
     if (now.beta < best_beta) {
       best_beta = now.beta;
-      result.points.coordinates = points.coordinates;
+      result.points.coordinates = sweeper.set().places();
     }
     control.report(
         {static_cast<double>(result.sweeps) / options.max_sweeps, now.sweep, now.beta, now.r_c, now.r_f});

@@ -11,6 +11,7 @@
 #include "core/optimize/best_state.h"
 #include "core/optimize/calm.h"
 #include "core/optimize/capacity_step.h"
+#include "core/optimize/cell_sweep.h"
 #include "core/optimize/push_pull_sweep.h"
 #include "core/optimize/require.h"
 #include "core/voronoi/cell.h"
@@ -51,7 +52,15 @@ struct Measured {
   }
 };
 
+Measured measure(const MovingSet& set, const Control& control) {
+  const MeshRadii radii = set.measure(control);
+  double deviation = 0;
+  for (const double d : area_deviations(set, control)) deviation = std::max(deviation, std::abs(d));
+  return {radii.shortest, radii.outermost, deviation};
+}
+
 Measured measure(const PointSet& points, const Control& control) {
+  if (!is_plain_torus(points)) return measure(MovingSet(points, control), control);
   const double d = hexagonal_spacing(points.domain->area(), points.size());
   const double mean_area = points.domain->area() / static_cast<double>(points.size());
   std::vector<Measured> locals(points.size());
@@ -76,6 +85,12 @@ Measured measure(const PointSet& points, const Control& control) {
   return {all.r_f / d, all.r_c / d, all.area_deviation};
 }
 
+/// What a unit is for a point whose radius is 1.
+double unit_length(const PointSet& points, const Control& control) {
+  return is_plain_torus(points) ? hexagonal_spacing(points.domain->area(), points.size())
+                                : MovingSet(points, control).spacing();
+}
+
 /// Targets so loose that holding them may make beta worse than it was are tightened: rho as far as is easy,
 /// then coverage.
 PushPullOptions tightened(PushPullOptions o, double beta) {
@@ -97,6 +112,7 @@ PushPull targets_of(const PushPullOptions& o) {
   return targets;
 }
 
+template <class State>
 class Relaxation {
  public:
   Relaxation(const PointSet& input, const PushPullOptions& options, Control& control)
@@ -162,14 +178,26 @@ class Relaxation {
   static double area_target(const PushPullOptions& aims) { return *aims.area_sd * (1 - tight); }
 
   SweepCounts sweep_with_areas(const PushPull& targets, double most) {
+    return sweep_with_areas(mesh_, targets, most);
+  }
+
+  /// Points that violate a radius act for themselves, then all cells push or pull their neighbors at once.
+  SweepCounts sweep_with_areas(MovingSet& set, const PushPull& targets, double most) {
+    SweepCounts count = push_pull_sweep(set, targets, control_);
+    count.moves += capacity_sweep(set, most, control_);
+    count.visits += set.size();
+    return count;
+  }
+
+  SweepCounts sweep_with_areas(StarMesh& mesh, const PushPull& targets, double most) {
     SweepCounts count;
-    for (std::size_t i = 0; (i = mesh_.take_marked(i, mesh_.size())) < mesh_.size(); ++i) {
+    for (std::size_t i = 0; (i = mesh.take_marked(i, mesh.size())) < mesh.size(); ++i) {
       if (++count.visits % between_checks == 0) control_.check();
-      const bool moved = push_pull_step(mesh_, i, targets);
-      const bool corrected = capacity_step(mesh_, i, most);
+      const bool moved = push_pull_step(mesh, i, targets);
+      const bool corrected = capacity_step(mesh, i, most);
       count.moves += moved || corrected ? 1 : 0;
       if (!moved || corrected) continue;
-      for (int k = 0; k < mesh_.star(i).degree; ++k) mesh_.mark(mesh_.star(i).neighbor[k]);
+      for (int k = 0; k < mesh.star(i).degree; ++k) mesh.mark(mesh.star(i).neighbor[k]);
     }
     control_.check();
     return count;
@@ -178,12 +206,25 @@ class Relaxation {
   /// Looks for what the marks may have missed; marks it.
   bool is_clean(const PushPullOptions& aims) {
     mesh_.legalize_all(control_);
-    if (!aims.area_sd) return !mesh_.any_marked();
-    for (std::size_t i = 0; i < mesh_.size(); ++i) {
-      if (i % between_checks == 0) control_.check();
-      if (std::abs(area_deviation(mesh_, i)) > area_target(aims)) mesh_.mark(i);
-    }
+    mark_violations(mesh_, aims);
     return !mesh_.any_marked();
+  }
+
+  void mark_violations(StarMesh& mesh, const PushPullOptions& aims) const {
+    if (!aims.area_sd) return;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+      if (i % between_checks == 0) control_.check();
+      if (std::abs(area_deviation(mesh, i)) > area_target(aims)) mesh.mark(i);
+    }
+  }
+
+  void mark_violations(MovingSet& set, const PushPullOptions& aims) const {
+    const MeshRadii radii = set.measure(control_);
+    if (radii.shortest < aims.rho || radii.outermost > aims.coverage) set.mark_all();
+    if (!aims.area_sd) return;
+    const std::vector<double> deviations = area_deviations(set, control_);
+    for (std::size_t i = 0; i < set.size(); ++i)
+      if (std::abs(deviations[i]) > area_target(aims)) set.mark(i);
   }
 
   void record() {
@@ -193,8 +234,8 @@ class Relaxation {
 
   const PushPullOptions& options_;
   Control& control_;
-  StarMesh mesh_;
-  BestState best_;
+  State mesh_;
+  BestState<State> best_;
   int sweeps_ = 0;
   std::size_t visits_ = 0;
 };
@@ -206,11 +247,12 @@ OptimizeResult push_pull(const PointSet& input, const PushPullOptions& options, 
   require_usable(input, control);
   const Measured before = measure(input, control);
   if (before.holds(options)) {
-    const double d = hexagonal_spacing(input.domain->area(), input.size());
+    const double d = unit_length(input, control);
     return {input, true, 0, {{0, before.r_c / before.r_f, before.r_c * d, before.r_f * d}}};
   }
   const PushPullOptions aims = tightened(options, before.r_c / before.r_f);
-  OptimizeResult result = Relaxation(input, aims, control).run();
+  OptimizeResult result = is_plain_torus(input) ? Relaxation<StarMesh>(input, aims, control).run()
+                                                : Relaxation<MovingSet>(input, aims, control).run();
   result.converged = measure(result.points, control).holds(options);
   return result;
 }

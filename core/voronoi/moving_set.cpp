@@ -1,6 +1,7 @@
 #include "core/voronoi/moving_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -75,6 +76,31 @@ void MovingSet::move_to(std::size_t i, Vec3 to) {
   renew(i);
 }
 
+void MovingSet::put_back(std::size_t i, Vec3 to) {
+  points_.set(i, to);
+  grid_.put_back(static_cast<std::uint32_t>(i), to);
+  renew(i);
+}
+
+Vec2 MovingSet::free_part(std::size_t i, Vec2 move) const {
+  const Freedom& freedom = freedoms_[i];
+  if (freedom.dimensions == 2) return move;
+  return freedom.dimensions == 1 ? dot(move, freedom.along) * freedom.along : Vec2{};
+}
+
+void MovingSet::collect_spokes(std::size_t i, CellFinder& cells, std::vector<Vec2>& ways) const {
+  cells.load(static_cast<std::uint32_t>(i), reach(i));
+  cells.cell_at({});
+  std::vector<std::int32_t> labels;
+  for (const Cell& part : cells.parts())
+    for (const Cell::Corner& corner : part.corners())
+      if (corner.label >= 0 && std::find(labels.begin(), labels.end(), corner.label) == labels.end())
+        labels.push_back(corner.label);
+  for (const std::int32_t label : labels)
+    ways.push_back((1 / units_[i]) *
+                   domain().way_to(points_[i], cells.neighbors()[static_cast<std::size_t>(label)]));
+}
+
 /// What depends on where the point is.
 void MovingSet::renew(std::size_t i) {
   if (points_.sizing != nullptr) units_[i] = spacing_ * points_.sizing->at(points_[i]);
@@ -109,6 +135,10 @@ MeshRadii MovingSet::measure(const Control& control) const {
 MeshRadii MovingSet::radii_at(std::size_t i, CellFinder& cells) const {
   cells.load(static_cast<std::uint32_t>(i), reach(i));
   cells.cell_at({});
+  return radii_of_loaded(i, cells);
+}
+
+MeshRadii MovingSet::radii_of_loaded(std::size_t i, CellFinder& cells) const {
   MeshRadii radii{std::numeric_limits<double>::infinity(), 0};
   for (const Neighbor& neighbor : cells.neighbors()) {
     if (neighbor.id == i || both_fixed(i, neighbor.id)) continue;
@@ -118,6 +148,36 @@ MeshRadii MovingSet::radii_at(std::size_t i, CellFinder& cells) const {
   }
   radii.outermost = domain().chart_to_distance(std::sqrt(cells.outradius2())) / units_[i];
   return radii;
+}
+
+MovingSet::CellIntegrals MovingSet::integrals(std::size_t i, CellFinder& cells) const {
+  cells.load(static_cast<std::uint32_t>(i), reach(i));
+  cells.cell_at({});
+  const PolygonMoments m = points_.sizing == nullptr ? cells.moments() : weighted_moments(i, cells);
+  const double u = units_[i], u2 = u * u;
+  return {m.area / u2, (1 / (m.area * u)) * m.first, m.second / (u2 * u2), radii_of_loaded(i, cells)};
+}
+
+/// Triangles around each part's first corner, each with the weight of its middle, as r(x) is there in
+/// relation to the point's own.
+PolygonMoments MovingSet::weighted_moments(std::size_t i, CellFinder& cells) const {
+  PolygonMoments sum;
+  const double own = points_.sizing->at(points_[i]);
+  for (const Cell& part : cells.parts()) {
+    const std::span<const Cell::Corner> corners = part.corners();
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      const std::array<Vec2, 3> triangle = {corners[0].at, corners[k - 1].at, corners[k].at};
+      const Vec2 middle = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
+      const double ratio = own / points_.sizing->at(domain().place_at(points_[i], middle));
+      PolygonMoments m = domain().moments(triangle);
+      const double weight = ratio * ratio * ratio * ratio;
+      m.area *= weight;
+      m.first = weight * m.first;
+      m.second *= weight;
+      sum += m;
+    }
+  }
+  return sum;
 }
 
 }  // namespace wellspaced

@@ -46,12 +46,29 @@ class MovingSet {
   double reach(std::size_t i) const { return 2.3 * units_[i]; }
 
   void move_to(std::size_t i, Vec3 to);
+  /// Takes point i out, so that cells are those of the others, and puts it back where it now is.
+  void take_out(std::size_t i) { grid_.take_out(static_cast<std::uint32_t>(i), points_[i]); }
+  void put_back(std::size_t i, Vec3 to);
+  /// The part of a move that point i is free to make, but for the boundary in front of it.
+  Vec2 free_part(std::size_t i, Vec2 move) const;
+  /// Appends the ways to the points that share an edge of their cells with i, in units of i, once each.
+  void collect_spokes(std::size_t i, CellFinder& cells, std::vector<Vec2>& ways) const;
 
   void mark(std::size_t i) { marks_.set(i); }
   void mark_all() { marks_.set_all(); }
   bool any_marked() const { return marks_.count() != 0; }
   std::size_t marked() const { return marks_.count(); }
   std::size_t take_marked(std::size_t from, std::size_t end) { return marks_.take(from, end); }
+
+  /// Of a cell, in the units of its point. With a sizing function mass is denser where points are: r(x)^-4
+  /// times as dense, which leaves cells of as many units.
+  struct CellIntegrals {
+    double mass = 0;
+    Vec2 to_centroid;
+    double energy = 0;  ///< integral of mass times squared distance
+    MeshRadii radii;
+  };
+  CellIntegrals integrals(std::size_t i, CellFinder& cells) const;
 
   /// Smallest distance of two points that are not both fixed, and largest distance in a cell, each in its
   /// units. Errors: cancelled, deadline_exceeded. Cost: about 0.8 us a point and thread.
@@ -68,11 +85,14 @@ class MovingSet {
   /// There is no triangulation to be kept.
   std::size_t legalize_all(const Control&) { return 0; }
 
-  PointSet points(const PointSet&, const Control&) const { return points_; }
+  const PointSet& points() const { return points_; }
+  const PointSet& points(const PointSet&, const Control&) const { return points_; }  ///< as of a StarMesh
 
  private:
   void set_units(const Control& control);
   MeshRadii radii_at(std::size_t i, CellFinder& cells) const;
+  MeshRadii radii_of_loaded(std::size_t i, CellFinder& cells) const;
+  PolygonMoments weighted_moments(std::size_t i, CellFinder& cells) const;
   void renew(std::size_t i);
 
   PointSet points_;

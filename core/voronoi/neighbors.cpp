@@ -97,11 +97,20 @@ void NeighborGrid::gather_cell(std::size_t cell, const Window& window, Vec3 shif
 void NeighborGrid::move(std::uint32_t i, Vec3 from, Vec3 to) {
   const std::size_t old_cell = cell_of(from), new_cell = cell_of(to);
   if (old_cell == new_cell) return;
-  std::uint32_t* link = &first_[old_cell];
+  take_out(i, from);
+  put_back(i, to);
+}
+
+void NeighborGrid::take_out(std::uint32_t i, Vec3 at) {
+  std::uint32_t* link = &first_[cell_of(at)];
   while (*link != i) link = &next_[*link];
   *link = next_[i];
-  next_[i] = first_[new_cell];
-  first_[new_cell] = i;
+}
+
+void NeighborGrid::put_back(std::uint32_t i, Vec3 at) {
+  std::uint32_t& first = first_[cell_of(at)];
+  next_[i] = first;
+  first = i;
 }
 
 void NeighborGrid::add(std::uint32_t i) {

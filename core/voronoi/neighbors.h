@@ -34,6 +34,10 @@ class NeighborGrid {
   /// Tells the grid of sample i, the next one after those it knows, just appended to the points.
   void add(std::uint32_t i);
 
+  /// Tells the grid that sample i, at `at`, is not to be found any more, or again.
+  void take_out(std::uint32_t i, Vec3 at);
+  void put_back(std::uint32_t i, Vec3 at);
+
   /// Number of samples in the fullest cell.
   std::size_t fullest_cell() const;
   /// Number of cells that hold nothing.
