@@ -57,17 +57,20 @@ struct Method {
 };
 
 struct Generator : Method {
-  bool random = true;  ///< takes a seed
+  bool random = true;       ///< takes a seed
+  bool only_torus = false;  ///< knows no other domain
   PointSet (*run)(const std::shared_ptr<const Domain>&, const Arguments&, Rng&, Control&) = nullptr;
   double (*expected_count)(const Domain&, const Arguments&) = nullptr;
   /// What can be refused before the work, beyond the parameters' ranges; same errors as `run`.
   void (*check)(const Domain&, const Arguments&) = nullptr;
-  Cost cost_a_point;
+  Cost cost_a_point;  ///< on the torus
+  Cost cost_elsewhere;
 };
 
 struct Optimizer : Method {
   OptimizeResult (*run)(const PointSet&, const Arguments&, Control&) = nullptr;
   Cost (*cost_a_point)(const Arguments&) = nullptr;
+  double times_elsewhere = 1;  ///< how many times as long it takes on other domains
 };
 
 /// All methods, in the order in which users see them. One row each in registry_generators.cpp and

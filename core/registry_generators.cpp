@@ -5,6 +5,7 @@
 
 #include "core/domain/torus.h"
 #include "core/generate/delaunay_refinement.h"
+#include "core/generate/domain_darts.h"
 #include "core/generate/generate.h"
 #include "core/generate/jittered.h"
 #include "core/generate/lattice.h"
@@ -20,6 +21,23 @@ constexpr double largest_count = 1e15;  // what is really allowed is the operato
 
 std::uint64_t count_of(const Arguments& a) {
   return static_cast<std::uint64_t>(argument(a, "count").value());
+}
+
+/// On any domain but the torus, for which there are faster ways.
+PointSet by_darts(const std::shared_ptr<const Domain>& domain, double coverage, const Arguments& a, Rng& rng,
+                  Control& control) {
+  DiskRule rule;
+  rule.coverage = coverage;
+  const auto r = argument(a, "radius");
+  if (!r) return throw_darts_over_to_count(domain, count_of(a), rule, rng, control);
+  rule.scale = *r;
+  return throw_darts_over(domain, rule, rng, control);
+}
+
+double expected_by_darts(const Domain& domain, double coverage, double radius) {
+  DiskRule rule;
+  rule.scale = radius * coverage;
+  return expected_points(domain, rule);
 }
 
 std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
@@ -95,7 +113,9 @@ const std::vector<Generator> generator_rows = {
       "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
       {count(false), radius()}},
      true,
+     false,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
+       if (!is_torus(*domain)) return by_darts(domain, 1, a, rng, control);
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
        return r ? poisson_disk(torus, {*r}, rng, control)
@@ -103,12 +123,14 @@ const std::vector<Generator> generator_rows = {
      },
      [](const Domain& domain, const Arguments& a) {
        const auto r = argument(a, "radius");
+       if (r && !is_torus(domain)) return expected_by_darts(domain, 1, *r);
        return r ? poisson_disk_count(domain.area(), *r) : argument(a, "count").value();
      },
      [](const Domain& domain, const Arguments& a) {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
-     {5e-6, 180}},
+     {5e-6, 180},
+     {5e-5, 500}},
     {{"two-radii",
       "Two-radii Poisson-disk sampling",
       "Random points, none nearer than r to another, no place farther than beta r from all: between "
@@ -116,44 +138,52 @@ const std::vector<Generator> generator_rows = {
       "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
       {count(false), radius(), coverage_ratio()}},
      true,
+     false,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
+       if (!is_torus(*domain)) return by_darts(domain, two_radii_options(a).beta, a, rng, control);
        const auto torus = torus_of(domain);
        const TwoRadiiOptions options = two_radii_options(a);
        return argument(a, "radius") ? two_radii(torus, options, rng, control)
                                     : two_radii_of_count(torus, count_of(a), options, rng, control);
      },
      [](const Domain& domain, const Arguments& a) {
-       return argument(a, "radius") ? two_radii_count(domain.area(), two_radii_options(a))
-                                    : argument(a, "count").value();
+       const auto r = argument(a, "radius");
+       if (r && !is_torus(domain)) return expected_by_darts(domain, std::sqrt(two_radii_options(a).beta), *r);
+       return r ? two_radii_count(domain.area(), two_radii_options(a)) : argument(a, "count").value();
      },
      [](const Domain& domain, const Arguments& a) {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
-     {1e-5, 260}},
+     {1e-5, 260},
+     {8e-5, 500}},
     {{"white-noise",
       "White noise",
       "Independent uniform points: what nothing is spaced looks like.",
       "",
       {count(true)}},
      true,
+     false,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        return white_noise(domain, count_of(a), rng, control);
      },
      counted,
      nullptr,
-     {1e-7, 64}},
+     {1e-7, 64},
+     {1e-6, 64}},
     {{"jittered",
       "Jittered grid",
       "One uniform point in each of as many rectangles of equal area, row by row.",
       "",
       {count(true)}},
      true,
+     true,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
        return jittered(torus_of(domain), count_of(a), rng, control);
      },
      counted,
      nullptr,
-     {1e-7, 64}},
+     {1e-7, 64},
+     {}},
     {{"delaunay-refinement",
       "Delaunay refinement",
       "The circumcenter of the largest Delaunay triangle becomes a point until none is larger than r, which "
@@ -162,6 +192,7 @@ const std::vector<Generator> generator_rows = {
       "Chew, Guaranteed-Quality Triangular Meshes, 1989",
       {count(false), radius()}},
      false,
+     true,
      [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng&, Control& control) {
        const auto torus = torus_of(domain);
        const auto r = argument(a, "radius");
@@ -175,7 +206,8 @@ const std::vector<Generator> generator_rows = {
      [](const Domain& domain, const Arguments& a) {
        if (const auto r = argument(a, "radius")) require_radius(domain, *r);
      },
-     {1e-5, 200}},
+     {1e-5, 200},
+     {}},
     {{"triangular",
       "Triangular lattice",
       "The best possible spacing and no randomness: the least stretched lattice of that many points, beta = "
@@ -183,30 +215,36 @@ const std::vector<Generator> generator_rows = {
       "",
       {count(true)}},
      false,
+     true,
      run_lattice<triangular_lattice>,
      counted,
      nullptr,
-     {3e-7, 64}},
+     {3e-7, 64},
+     {}},
     {{"square",
       "Square lattice",
       "The least stretched lattice of that many points: beta = 1/sqrt(2) where one fits.",
       "",
       {count(true)}},
      false,
+     true,
      run_lattice<square_lattice>,
      counted,
      nullptr,
-     {3e-7, 64}},
+     {3e-7, 64},
+     {}},
     {{"hexagonal",
       "Hexagonal lattice (honeycomb)",
       "The corners of the least stretched hexagons, an even number: beta = 1 where they fit.",
       "",
       {even_count()}},
      false,
+     true,
      run_lattice<hexagonal_lattice>,
      counted,
      [](const Domain&, const Arguments& a) { require_even(count_of(a)); },
-     {3e-7, 64}},
+     {3e-7, 64},
+     {}},
 };
 
 }  // namespace

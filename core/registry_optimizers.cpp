@@ -169,7 +169,8 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{0.1e-6 * expected_visits(opt_beta_options(a)) + 5e-6, 400};
-     }},
+     },
+     30},
     {{"opt-beta-local",
       "Opt-beta^i",
       "The paper's method: each point in turn moves to where its own ratio beta_i is least, until the global "
@@ -186,7 +187,8 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{13e-6 * opt_beta_local_options(a).max_sweeps + 10e-6, 220};
-     }},
+     },
+     1.5},
     {{"push-pull", "Push-pull",
       "Pushes points away from neighbors that are too near and pulls them towards gaps that are too wide, "
       "until absolute targets for both radii, and for the cells' areas if wanted, hold; takes 20 points or "
@@ -201,7 +203,8 @@ const std::vector<Optimizer> optimizer_rows = {
        return Cost{options.area_sd ? 1.2e-6 * options.max_sweeps + 12e-6
                                    : 0.1e-6 * std::min(options.max_sweeps, usual_sweeps) + 5e-6,
                    250};
-     }},
+     },
+     40},
     {{"cvt",
       "Centroidal Voronoi tessellation",
       "Moves points to the centroids of their Voronoi cells, which lowers the mean squared distance to the "
@@ -216,7 +219,8 @@ const std::vector<Optimizer> optimizer_rows = {
        const CvtOptions options = cvt_options(a);
        const bool lloyd = options.variant == CvtOptions::Variant::lloyd;
        return Cost{(lloyd ? 0.4e-6 : 1e-6) * options.max_sweeps + 12e-6, lloyd ? 250.0 : 700.0};
-     }},
+     },
+     15},
     {{"distmesh",
       "DistMesh",
       "Edges of the triangulation as springs that only push; takes 20 points or more that are spread over "
@@ -228,7 +232,8 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{0.4e-6 * sweeps_and_tolerance<DistMeshOptions>(a).max_sweeps + 12e-6, 250};
-     }},
+     },
+     15},
     {{"far-point",
       "Farthest-point optimization",
       "Takes out each point in turn and puts it where the others are farthest, which raises r_f; takes 20 "
@@ -244,7 +249,8 @@ const std::vector<Optimizer> optimizer_rows = {
      },
      [](const Arguments& a) {
        return Cost{6e-6 * sweeps_and_tolerance<FarPointOptions>(a).max_sweeps + 12e-6, 250};
-     }},
+     },
+     15},
 };
 
 }  // namespace

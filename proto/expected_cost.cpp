@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/domain/torus.h"
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
 #include "proto/fields.h"
@@ -30,7 +31,14 @@ double expected(const OptimizeRequest& request) {
 }
 
 Cost cost_of(const GenerateRequest& request) {
-  return times(expected(request), request.method->cost_a_point);
+  const bool torus = is_torus(*request.domain);
+  return times(expected(request), torus ? request.method->cost_a_point : request.method->cost_elsewhere);
+}
+
+Cost cost_of_optimizing(const OptimizeRequest& request) {
+  Cost cost = request.method->cost_a_point(request.arguments);
+  if (!is_torus(domain_of(request.points))) cost.seconds *= request.method->times_elsewhere;
+  return cost;
 }
 
 Cost cost_of(const PointSource& source);
@@ -38,7 +46,7 @@ Cost cost_of(const PointSource& source);
 Cost cost_of(const OptimizeRequest& request) {
   const double n = expected(request);
   return cost_of(request.points) + times(request.enrich ? n : 0, enriching) +
-         times(n, request.method->cost_a_point(request.arguments));
+         times(n, cost_of_optimizing(request));
 }
 
 Cost cost_of(const PointSource& source) {

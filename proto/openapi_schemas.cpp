@@ -1,5 +1,6 @@
 #include "proto/openapi_schemas.h"
 
+#include "core/domain/sphere.h"
 #include "core/domain/torus.h"
 #include "core/registry.h"
 #include "proto/measures/measures.h"
@@ -43,24 +44,60 @@ std::string camel(const std::string& name) {
   return out;
 }
 
-ordered_json domain_schema() {
+/// A rectangle that repeats along both axes unless told otherwise, or along none.
+ordered_json rectangle_schema(const char* type, bool repeats, const char* description) {
   ordered_json side = {
       {"type", "number"}, {"minimum", Torus::min_side}, {"maximum", Torus::max_side}, {"default", 1}};
+  ordered_json periodic = {{"type", "array"},
+                           {"description", "whether it repeats along x, and along y"},
+                           {"items", {{"type", "boolean"}}},
+                           {"minItems", 2},
+                           {"maxItems", 2},
+                           {"default", {repeats, repeats}}};
+  ordered_json named = {{"type", "string"}, {"enum", {type}}};
+  if (repeats) named["default"] = type;
   ordered_json schema =
-      closed(object({{"type", {{"type", "string"}, {"enum", {"torus"}}, {"default", "torus"}}},
-                     {"width", side},
-                     {"height", side}}));
-  schema["description"] =
-      "The flat torus [0, width) x [0, height), half-open; the longer side at most 1000 times the shorter "
-      "one.";
+      closed(object({{"type", named}, {"width", side}, {"height", side}, {"periodic", std::move(periodic)}},
+                    repeats ? ordered_json::array() : ordered_json{"type"}));
+  schema["title"] = type;
+  schema["description"] = description;
   return schema;
 }
 
-ordered_json points_schema() {
+ordered_json sphere_schema() {
+  ordered_json schema = closed(object({{"type", {{"type", "string"}, {"enum", {"sphere"}}}},
+                                       {"radius",
+                                        {{"type", "number"},
+                                         {"minimum", Sphere::min_radius},
+                                         {"maximum", Sphere::max_radius},
+                                         {"default", 1}}}},
+                                      {"type"}));
+  schema["title"] = "sphere";
+  schema["description"] =
+      "The sphere of that radius around the origin: points are [x, y, z] on it, distances go along it.";
+  return schema;
+}
+
+ordered_json domain_schema() {
   return {
-      {"type", "array"},
-      {"description", "[[x, y], ...]; no two nearer to each other than 1e-10 of the domain's longer side"},
-      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}};
+      {"description", "Where points live; the unit torus where none is given."},
+      {"oneOf",
+       {rectangle_schema("torus", true,
+                         "The flat torus [0, width) x [0, height), half-open; the longer side at most 1000 "
+                         "times the shorter one."),
+        rectangle_schema("box", false,
+                         "The same rectangle bounded along one axis or both, and closed there; points with "
+                         "a coordinate that is exactly 0 or the side are on the boundary, and stay there."),
+        sphere_schema()}}};
+}
+
+ordered_json points_schema() {
+  return {{"type", "array"},
+          {"description",
+           "[[x, y], ...]; on a sphere [[x, y, z], ...]; no two nearer to each other than 1e-10 of the "
+           "longest side "
+           "of the domain's box"},
+          {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}}}};
 }
 
 /// The fields of a method: its own parameters and the ones that all requests of its operation have.

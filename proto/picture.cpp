@@ -129,8 +129,8 @@ void require_size(const Subject& subject, const PictureCall& call, const Limits&
 void require_possible(const PictureCall& call, const Domain& domain, double n) {
   if (call.picture->needs_torus && !is_torus(domain))
     throw Error(ErrorCode::invalid_parameters,
-                call.picture->name + " means nothing on a " + std::string(domain.type()) +
-                    "; ask for points or voronoi",
+                call.picture->name + " is drawn of points on a torus only, not on a " +
+                    std::string(domain.type()) + "; ask for convergence, or for json",
                 "/picture");
   if (call.picture->check == nullptr) return;
   try {

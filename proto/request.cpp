@@ -1,10 +1,13 @@
 #include "proto/request.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "core/domain/box_domain.h"
+#include "core/domain/sphere.h"
 #include "core/domain/torus.h"
 #include "proto/arguments.h"
 #include "proto/fields.h"
@@ -158,25 +161,54 @@ AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limit
   return request;
 }
 
+/// [true, false]: along which axes a rectangle repeats.
+std::optional<std::array<bool, 2>> periodic_field(Fields& fields) {
+  const json* value = fields.find("periodic");
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_array() || value->size() != 2 || !(*value)[0].is_boolean() || !(*value)[1].is_boolean())
+    throw Error(ErrorCode::invalid_parameters,
+                "expected two booleans, whether the domain repeats along x and along y, as in [true, false]",
+                fields.pointer_to("periodic"));
+  return std::array<bool, 2>{(*value)[0].get<bool>(), (*value)[1].get<bool>()};
+}
+
+/// A torus, or a box if it isn't periodic along both axes.
+std::shared_ptr<const Domain> rectangle(Fields& fields, bool repeats) {
+  const double width = fields.number("width").value_or(1), height = fields.number("height").value_or(1);
+  const std::array<bool, 2> periodic = periodic_field(fields).value_or(std::array<bool, 2>{repeats, repeats});
+  fields.refuse_unknown();
+  if (periodic[0] && periodic[1]) return std::make_shared<Torus>(width, height);
+  return std::make_shared<BoxDomain>(width, height, periodic);
+}
+
+std::shared_ptr<const Domain> sphere(Fields& fields) {
+  const double radius = fields.number("radius").value_or(1);
+  fields.refuse_unknown();
+  return std::make_shared<Sphere>(radius);
+}
+
 }  // namespace
 
 std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer) {
   Fields fields(value, pointer);
   const std::string type = fields.text("type").value_or("torus");
-  if (type != "torus")
-    throw Error(ErrorCode::invalid_parameters, "unknown domain; there is: torus", fields.pointer_to("type"));
-  const double width = fields.number("width").value_or(1), height = fields.number("height").value_or(1);
-  fields.refuse_unknown();
   try {
-    return std::make_shared<Torus>(width, height);
+    if (type == "torus" || type == "box") return rectangle(fields, type == "torus");
+    if (type == "sphere") return sphere(fields);
   } catch (const Error& error) {
-    throw error.within(pointer);
+    throw error.where().starts_with(pointer) && !pointer.empty() ? error : error.within(pointer);
   }
+  throw Error(ErrorCode::invalid_parameters, "unknown domain; there are: torus, box, sphere",
+              fields.pointer_to("type"));
 }
 
 nlohmann::ordered_json domain_to_json(const Domain& domain) {
+  if (const auto* ball = dynamic_cast<const Sphere*>(&domain))
+    return {{"type", ball->type()}, {"radius", ball->radius()}};
   const Box box = domain.box();
-  return {{"type", domain.type()}, {"width", box.size.x}, {"height", box.size.y}};
+  nlohmann::ordered_json result = {{"type", domain.type()}, {"width", box.size.x}, {"height", box.size.y}};
+  if (!is_torus(domain)) result["periodic"] = {box.periodic[0], box.periodic[1]};
+  return result;
 }
 
 Request read_request(const RawRequest& raw, const Limits& limits, const JobPoints& job_points) {

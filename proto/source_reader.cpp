@@ -32,7 +32,11 @@ void require_count(double points, std::uint64_t limit, const std::string& where)
               where);
 }
 
-void require_room_to_enrich(const OptimizeRequest& request, std::uint64_t limit) {
+void require_enrichable(const OptimizeRequest& request, std::uint64_t limit) {
+  if (const Domain& domain = domain_of(request.points); !is_torus(domain))
+    throw Error(ErrorCode::invalid_parameters,
+                "holes are filled on a torus only; leave enrich out on a " + std::string(domain.type()),
+                request.pointer + "/enrich");
   const double most = expected_points({std::make_shared<OptimizeRequest>(request), ""});
   if (most <= static_cast<double>(limit)) return;
   throw Error(ErrorCode::too_large,
@@ -84,6 +88,12 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
   request.domain = or_unit_torus(domain_field(fields));
   request.method = &find_row(generators(), fields.text("method").value_or(generators().front().name),
                              fields.pointer_to("method"));
+  if (request.method->only_torus && !is_torus(*request.domain))
+    throw Error(ErrorCode::invalid_parameters,
+                request.method->name +
+                    " is for a torus only; ask for poisson-disk, two-radii or white-noise on a " +
+                    std::string(request.domain->type()),
+                fields.pointer_to("method"));
   request.seed = fields.whole("seed").value_or(0);
   request.arguments = read_arguments(*request.method, fields);
   const std::string density = fields.pointer_to(request.arguments.count("count") != 0 ? "count" : "radius");
@@ -107,7 +117,7 @@ OptimizeRequest SourceReader::optimize(Fields& fields) {
   request.enrich = fields.flag("enrich").value_or(false);
   request.arguments = read_arguments(*request.method, fields);
   request.points = points(fields);
-  if (request.enrich) require_room_to_enrich(request, most_points_);
+  if (request.enrich) require_enrichable(request, most_points_);
   return request;
 }
 

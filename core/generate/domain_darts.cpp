@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
+#include "core/error.h"
 #include "core/generate/generate.h"
 #include "core/generate/hole_filler.h"
 #include "core/generate/row_order.h"
@@ -18,12 +20,6 @@ constexpr std::size_t between_checks = 512;
 struct Interval {
   double begin, end;
 };
-
-/// How many points about; at least a few.
-double expected_points(const Domain& domain, const DiskRule& rule) {
-  const double r = rule.sizing == nullptr ? rule.scale : std::sqrt(rule.least() * rule.most());
-  return std::max(16.0, poisson_disk_constant * domain.area() / (r * r) + 0.7 * domain.boundary_length() / r);
-}
 
 class DomainDarts {
  public:
@@ -247,11 +243,72 @@ class DomainDarts {
 
 }  // namespace
 
+double expected_points(const Domain& domain, const DiskRule& rule) {
+  constexpr double on_rim = 0.39;  // a point on the boundary has half a cell inside
+  const double r = rule.sizing == nullptr ? rule.scale : std::sqrt(rule.least() * rule.most());
+  return std::max(16.0,
+                  poisson_disk_constant * domain.area() / (r * r) + on_rim * domain.boundary_length() / r);
+}
+
 PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng,
                           Control& control) {
   PointSet points = DomainDarts(domain, rule, rng, control).run();
   sort_into_rows(points, rule.least(), control);
   return points;
+}
+
+namespace {
+
+/// The scale that gives about `count` points: n = (C integral of r^-2 + D L / r) at scale 1, over its powers.
+double scale_for(const Domain& domain, const DiskRule& rule, double count) {
+  constexpr double on_rim = 0.39;
+  constexpr int draws = 4096;
+  double inverse = 1, inverse2 = 1;  // means of 1 / r and of its square
+  if (rule.sizing != nullptr) {
+    Rng rng(0x5ca1e);
+    inverse = inverse2 = 0;
+    for (int k = 0; k < draws; ++k) {
+      const double r = rule.sizing->at(domain.random_point(rng));
+      inverse += 1 / r / draws;
+      inverse2 += 1 / (r * r) / draws;
+    }
+  }
+  const double a = poisson_disk_constant * domain.area() * inverse2 / (rule.coverage * rule.coverage);
+  const double b = on_rim * domain.boundary_length() * inverse / rule.coverage;
+  return (b + std::sqrt(b * b + 4 * a * count)) / (2 * count);
+}
+
+std::size_t corners_of(const Domain& domain) {
+  const std::vector<BoundaryCurve> curves = domain.boundary();
+  return static_cast<std::size_t>(
+      std::count_if(curves.begin(), curves.end(), [](const BoundaryCurve& c) { return !c.closed; }));
+}
+
+}  // namespace
+
+PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, std::uint64_t count,
+                                   const DiskRule& rule, Rng& rng, Control& control) {
+  const std::size_t corners = corners_of(*domain);
+  if (count < corners)
+    throw Error(ErrorCode::infeasible,
+                "the domain has " + std::to_string(corners) +
+                    " corners, each of which is a point; ask for as many points or more",
+                "/count");
+  DiskRule tried = rule;
+  const auto wanted = static_cast<double>(count);
+  tried.scale = scale_for(*domain, rule, wanted - 0.6 * std::sqrt(wanted));
+  for (;;) {
+    PointSet points = DomainDarts(domain, tried, rng, control).run();
+    const auto found = static_cast<double>(points.size());
+    if (points.size() > count) {
+      tried.scale *= std::sqrt(found / wanted) * 1.01;
+      continue;
+    }
+    NeighborGrid grid(points, tried.least(), count);
+    HoleFiller(points, grid, tried, control).fill_to(count);
+    sort_into_rows(points, tried.least(), control);
+    return points;
+  }
 }
 
 }  // namespace wellspaced

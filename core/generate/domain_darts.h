@@ -29,4 +29,16 @@ namespace wellspaced {
 PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng,
                           Control& control);
 
+/// The same with exactly `count` points, for the scale that is found: a sampling of somewhat fewer points, to
+/// which farthest-point insertion adds those that are missing. rule.scale is not looked at.
+///
+/// Guarantees: exactly `count` points; 2. above for the radius of the result, so that beta is at most
+/// rule.coverage (1 + 1e-9) without a sizing function. Errors: infeasible at /count for fewer points than the
+/// domain has corners; cancelled, deadline_exceeded.
+PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, std::uint64_t count,
+                                   const DiskRule& rule, Rng& rng, Control& control);
+
+/// How many points the rule will give, about; at least 16.
+double expected_points(const Domain& domain, const DiskRule& rule);
+
 }  // namespace wellspaced

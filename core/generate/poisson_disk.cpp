@@ -10,6 +10,11 @@ void require_radius(const Domain& domain, double radius) {
   const double farthest = norm(domain.box().size) / 2;
   if (!(radius > 0))
     throw Error(ErrorCode::invalid_parameters, "the conflict radius must be greater than 0", "/radius");
+  if (radius > farthest && !is_torus(domain))
+    throw Error(ErrorCode::infeasible,
+                "a conflict radius above " + std::to_string(farthest) + " is larger than this " +
+                    std::string(domain.type()) + " has room for; choose a smaller one",
+                "/radius");
   if (radius > farthest)
     throw Error(ErrorCode::infeasible,
                 "no two points of this torus are farther apart than " + std::to_string(farthest) +

@@ -27,16 +27,16 @@ const Measure* find_measure(std::string_view name) {
 
 void require_meaning(const Measure& measure, const Domain& domain, const std::string& where) {
   if (!measure.needs_torus || is_torus(domain)) return;
-  throw Error(
-      ErrorCode::invalid_parameters,
-      measure.name + " means nothing on a " + std::string(domain.type()) +
-          ", which doesn't repeat along two axes; ask for spacing or distributions, or for this on a torus",
-      where);
+  throw Error(ErrorCode::invalid_parameters,
+              measure.name + " is measured on a torus only, not on a " + std::string(domain.type()) +
+                  "; ask for spacing or certificate, or for this on a torus",
+              where);
 }
 
 void require_same_domain(const Domain& first, const Domain& other, const std::string& where) {
   const Vec3 a = first.box().size, b = other.box().size;
-  if (first.type() == other.type() && a.x == b.x && a.y == b.y && a.z == b.z) return;
+  const bool same = a == b && first.box().periodic == other.box().periodic;
+  if (first.type() == other.type() && same) return;
   throw Error(
       ErrorCode::invalid_parameters,
       "this set is on another domain than the first one; averages are over sets on one domain, compare "

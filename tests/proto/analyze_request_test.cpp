@@ -230,12 +230,12 @@ TEST(ReadRequest, SuggestsOnlyPixelsThatTheMeasureTakes) {
 }
 
 /// A domain that repeats along no axis.
-TEST(RequireMeaning, RefusesSpectraWhereNothingRepeats) {
+TEST(RequireMeaning, RefusesOnOtherDomainsWhatNeedsATorus) {
   for (const Measure& measure : measures()) {
     EXPECT_NO_THROW(require_meaning(measure, Torus(), "/measures/0"));
     if (measure.needs_torus) {
       expect_refusal([&] { require_meaning(measure, BoxDomain(), "/measures/0"); },
-                     {"analyze", measure.name, invalid, "/measures/0", "means nothing on a box"});
+                     {"analyze", measure.name, invalid, "/measures/0", "on a torus only, not on a box"});
     } else {
       EXPECT_NO_THROW(require_meaning(measure, BoxDomain(), "/measures/0"));
     }

@@ -21,7 +21,7 @@ struct Rule {
 const std::vector<Rule> rules = {
     {"\"proto/", {"proto/", "server/"}},
     {"\"server/", {"server/"}},
-    {"<CGAL/", {"core/voronoi/delaunay.cpp"}},
+    {"<CGAL/", {"core/voronoi/delaunay.cpp", "core/domain/mesh_crossings.cpp"}},
     {"<httplib", {"server/http/"}},
     {"<nlohmann/", {"proto/", "server/"}},
     {"<spdlog/", {"server/"}},

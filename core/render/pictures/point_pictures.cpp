@@ -271,6 +271,7 @@ Drawing make(Kind kind, std::span<const PictureGroup> groups, const Arguments& a
 Picture row(const char* name, const char* title, const char* description) {
   Picture picture;
   picture.name = name;
+  picture.needs_torus = true;
   picture.title = title;
   picture.description = description;
   Parameter color;

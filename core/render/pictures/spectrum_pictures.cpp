@@ -274,6 +274,7 @@ SheetSize overview_sheet(std::span<const SetsSize> groups, const Arguments& argu
 Picture overview_picture() {
   Picture picture;
   picture.name = "overview";
+  picture.needs_torus = true;
   picture.title = "Overview";
   picture.description =
       "The points of a group's first set, the periodogram as an image, and radial mean power and anisotropy "

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/domain/domain.h"
+#include "core/domain/face_tree.h"
+#include "core/domain/mesh_border.h"
+#include "core/domain/smallest_feature.h"
+#include "core/domain/triangle_mesh.h"
+#include "core/domain/unfolding.h"
+
+namespace wellspaced {
+
+/// The surface of a triangle mesh, with or without border; distances are lengths of the shortest ways over
+/// its faces.
+///
+/// The chart at p is geodesic polar coordinates: the unfolded faces as seen from p. Its axes are those of p's
+/// face: x along the first edge, y into the face. Points on an edge belong to one of its faces, always the
+/// same. Neighbors behind a vertex with more than a whole turn around it appear in the direction of that
+/// vertex.
+///
+/// Points within 1e-12 of the box's diagonal from the border are on it; its curves end at corners, where it
+/// turns by more than 45 degrees on the unfolded faces.
+///
+/// Guarantees: `step` ends on the surface, to rounding; `distance` and `localize` are exact but for rounding.
+/// step(p, log q) is q again, but where the shortest way runs through a vertex.
+/// Cost: to find a point .1 us, among 10^5 faces .2; a step .2 us, and 10 ns a face on the way; localize .3
+/// to .7 us a neighbor while there are fewer than 2 faces a sample, 1 us with 4, 3 with 20, 12 with 100.
+/// `distance` 5 to 15 ms across 10^4 faces, seconds across 10^6. Thread safety: immutable after construction.
+class SurfaceMesh final : public Domain {
+ public:
+  explicit SurfaceMesh(TriangleMesh mesh);
+  SurfaceMesh(const SurfaceMesh&) = delete;  // its parts point to each other
+  SurfaceMesh& operator=(const SurfaceMesh&) = delete;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+  /// The face that a point of the surface is in. For any other point: of the nearest point on the surface.
+  MeshPlace locate(Vec3 p) const;
+  /// The point of the surface nearest to p.
+  Vec3 nearest(Vec3 p) const;
+  Vec3 position(const MeshPlace& place) const { return unfolding_.position(place); }
+  /// The axes of the chart at each point of a face.
+  Frame frame(std::uint32_t face) const { return unfolding_.frame(face); }
+  /// The vector of the shortest way from p to q in the chart at p; nothing if that is longer than `reach`.
+  std::optional<Vec2> logarithm(Vec3 p, Vec3 q, double reach) const;
+
+  /// See core/domain/smallest_feature.h.
+  SmallestFeature smallest_feature() const { return wellspaced::smallest_feature(mesh_, tree_); }
+
+  std::string_view type() const override { return "mesh"; }
+  int dimension() const override { return 3; }
+  double area() const override { return mesh_.facts().area; }
+  double boundary_length() const override { return border_.length(); }
+  int euler_characteristic() const override { return mesh_.facts().euler_characteristic; }
+  Box box() const override { return box_; }
+  bool is_flat() const override { return false; }
+  /// Infinite between components.
+  double distance(Vec3 p, Vec3 q) const override;
+  std::optional<std::string> why_outside(Vec3 p) const override;
+  Vec3 random_point(Rng& rng) const override;
+  Freedom freedom(Vec3 p) const override;
+  Vec2 possible(Vec3 p, Vec2 u) const override;
+  Vec3 step(Vec3 p, Vec2 u) const override;
+  void localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const override;
+  void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
+                 std::span<HalfPlane> out) const override;
+  double chart_to_distance(double u) const override { return u; }
+  bool pieces(Vec3 base, double reach, ChartPieces& out) const override;
+  std::vector<BoundaryCurve> boundary() const override { return border_.curves(); }
+  Vec3 boundary_point(std::size_t curve, double along) const override { return border_.point(curve, along); }
+  std::vector<DomainTriangle> triangles() const override;
+
+ private:
+  /// Where a point is, and, if it is on the border, where there.
+  struct Spot {
+    MeshPlace place;
+    std::optional<MeshBorder::Spot> border;
+  };
+
+  Spot spot(Vec3 p) const;
+  bool is_on_border(const MeshPlace& place) const;
+
+  TriangleMesh mesh_;
+  Box box_;
+  double rounding_;  ///< of points of the surface
+  Unfolding unfolding_;
+  FaceTree tree_;
+  MeshBorder border_;
+  std::vector<double> areas_up_to_;  ///< of each face and all before it
+};
+
+}  // namespace wellspaced

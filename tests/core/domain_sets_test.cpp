@@ -1,0 +1,289 @@
+// Generators, optimizers and measures on every kind of domain, against oracles that know nothing of cells.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/analyze/certificate.h"
+#include "core/analyze/domain_spacing.h"
+#include "core/analyze/spacing.h"
+#include "core/domain/sizing.h"
+#include "core/optimize/cvt.h"
+#include "core/optimize/distmesh.h"
+#include "core/optimize/opt_beta.h"
+#include "core/registry.h"
+#include "core/voronoi/moving_set.h"
+#include "tests/support/domains.h"
+
+namespace wellspaced {
+namespace {
+
+using testing::brute_r_c_on;
+using testing::brute_r_f;
+using testing::domains_of_every_kind;
+using testing::expect_error;
+using testing::mps_on;
+
+const Control plain;
+
+/// How often each freedom occurs: 0, 1, 2.
+std::array<int, 3> freedoms(const PointSet& points) {
+  std::array<int, 3> count{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ++count[static_cast<std::size_t>(points.domain->freedom(points[i]).dimensions)];
+  return count;
+}
+
+TEST(ThrowDartsOver, IsMaximalByBruteForce) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const double n : {6.0, 40.0, 150.0}) {
+      SCOPED_TRACE(name + " " + std::to_string(n));
+      if (n > 100 && name == "sphere") continue;  // the oracle takes n^4 steps
+      const double r = std::sqrt(0.6966 * domain->area() / n);
+      const PointSet points = mps_on(domain, n, 7);
+      for (std::size_t i = 0; i < points.size(); ++i) ASSERT_FALSE(domain->why_outside(points[i]));
+      EXPECT_GE(brute_r_f(points), r);
+      EXPECT_LE(brute_r_c_on(points, 1e-6 * r), r * (1 + 2e-6));
+      EXPECT_EQ(mps_on(domain, n, 7).coordinates, points.coordinates);
+      EXPECT_NE(mps_on(domain, n, 8).coordinates, points.coordinates);
+    }
+}
+
+TEST(ThrowDartsOver, FillsTheBoundaryFirst) {
+  const auto box = std::make_shared<BoxDomain>(2, 1);
+  const PointSet points = mps_on(box, 500, 1);
+  const double r = std::sqrt(0.6966 * 2 / 500);
+  const auto count = freedoms(points);
+  EXPECT_EQ(count[0], 4);
+  EXPECT_GT(count[1], 6 / (2 * r));
+  EXPECT_LT(count[1], 6 / r);
+  std::vector<double> bottom;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].y == 0) bottom.push_back(points[i].x);
+  std::sort(bottom.begin(), bottom.end());
+  for (std::size_t k = 1; k < bottom.size(); ++k) {
+    EXPECT_GE(bottom[k] - bottom[k - 1], r);
+    EXPECT_LE(bottom[k] - bottom[k - 1], 2 * r * (1 + 1e-9));
+  }
+}
+
+TEST(ThrowDartsOver, HasExactlyTheCountThatWasAskedForAndStaysMaximal) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const std::uint64_t count : {4u, 10u, 100u, 997u}) {
+      SCOPED_TRACE(name + " " + std::to_string(count));
+      Rng rng(count);
+      Control control;
+      const PointSet points = throw_darts_over_to_count(domain, count, {}, rng, control);
+      EXPECT_EQ(points.size(), count);
+      if (count > 4) {
+        EXPECT_LE(measure_ratio(points, plain).beta(), 1 + 1e-8);
+      }
+    }
+}
+
+TEST(ThrowDartsOver, RefusesFewerPointsThanCorners) {
+  Rng rng(1);
+  Control control;
+  expect_error([&] { throw_darts_over_to_count(std::make_shared<BoxDomain>(), 3, {}, rng, control); },
+               ErrorCode::infeasible, "/count", "4 corners");
+}
+
+/// By the rule itself, pair by pair and place by place.
+TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiVary) {
+  const auto box = std::make_shared<BoxDomain>();
+  const LinearSizing sizing(*box, {0, 0.02, 0.08});
+  for (const Criterion criterion :
+       {Criterion::smaller, Criterion::bigger, Criterion::prior, Criterion::current}) {
+    SCOPED_TRACE(static_cast<int>(criterion));
+    DiskRule rule;
+    rule.sizing = &sizing;
+    rule.criterion = criterion;
+    Rng rng(3);
+    Control control;
+    const PointSet points = throw_darts_over(box, rule, rng, control);
+    double most = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double d = box->distance(points[i], points[j]), a = rule.radius(points[i]),
+                     b = rule.radius(points[j]);
+        // Which one came first is not known any more.
+        const double room = criterion == Criterion::bigger ? std::max(a, b) : std::min(a, b);
+        ASSERT_GE(d, room) << i << " " << j;
+      }
+    Rng places(4);
+    for (int k = 0; k < 20000; ++k) {
+      const Vec3 p = box->random_point(places);
+      double least = 1e300;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        least = std::min(least,
+                         box->distance(p, points[i]) / rule.distance(rule.radius(p), rule.radius(points[i])));
+      most = std::max(most, least);
+    }
+    EXPECT_LE(most, 1);
+  }
+}
+
+TEST(MovingSet, MeasuresWhatBruteForceDoes) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    const PointSet points = mps_on(domain, 45, 5);
+    const GlobalRatio ratio = measure_ratio(points, plain);
+    EXPECT_NEAR(ratio.r_f, brute_r_f(points), 1e-12);
+    EXPECT_NEAR(ratio.r_c, brute_r_c_on(points, 1e-7), 2e-7);
+  }
+}
+
+TEST(MovingSet, WhiteNoiseIsMeasuredTheSame) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    PointSet points{domain, {}};
+    Rng rng(12);
+    for (int i = 0; i < 40; ++i) points.push_back(domain->random_point(rng));
+    const GlobalRatio ratio = measure_ratio(points, plain);
+    EXPECT_NEAR(ratio.r_f, brute_r_f(points), 1e-12);
+    EXPECT_NEAR(ratio.r_c, brute_r_c_on(points, 1e-7), 2e-7);
+  }
+}
+
+TEST(MovingSet, CellsAddUpToTheDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const double n : {8.0, 300.0}) {
+      SCOPED_TRACE(name);
+      const PointSet points = mps_on(domain, n, 6);
+      const MovingSet set(points, plain);
+      CellFinder cells = set.finder(plain);
+      double area = 0;
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        cells.load(static_cast<std::uint32_t>(i), set.reach(i));
+        cells.cell_at({});
+        area += cells.moments().area;
+      }
+      EXPECT_NEAR(area, domain->area(), 1e-9 * domain->area());
+    }
+}
+
+/// The torus has a way of its own, which knows nothing of MovingSet.
+TEST(MeasureDomainSpacing, SaysOfATorusWhatItsTriangulationSays) {
+  const PointSet points = mps_on(std::make_shared<Torus>(1.5, 1), 700, 9);
+  const LocalSpacing a = measure_domain_spacing(points, plain), b = measure_local_spacing(points, plain);
+  EXPECT_NEAR(a.global.beta, b.global.beta, 1e-12);
+  EXPECT_NEAR(a.global.r_f, b.global.r_f, 1e-14);
+  EXPECT_NEAR(a.global.r_c, b.global.r_c, 1e-13);
+  EXPECT_NEAR(a.global.rho, b.global.rho, 1e-12);
+  EXPECT_NEAR(a.global.packing_density, b.global.packing_density, 1e-12);
+  EXPECT_NEAR(a.global.nearest_mean, b.global.nearest_mean, 1e-12);
+  EXPECT_NEAR(a.global.cell_area_sd, b.global.cell_area_sd, 1e-11);
+  EXPECT_NEAR(a.global.angle_min_deg, b.global.angle_min_deg, 1e-9);
+  EXPECT_NEAR(a.global.angle_max_deg, b.global.angle_max_deg, 1e-9);
+  EXPECT_NEAR(a.global.edge_max, b.global.edge_max, 1e-12);
+  EXPECT_EQ(a.global.valence, b.global.valence);
+  ASSERT_EQ(a.beta_i.size(), b.beta_i.size());
+  for (std::size_t i = 0; i < a.beta_i.size(); ++i) EXPECT_NEAR(a.beta_i[i], b.beta_i[i], 1e-11);
+}
+
+TEST(MeasureDomainSpacing, ValencesOfASphereObeyEuler) {
+  const PointSet points = mps_on(std::make_shared<Sphere>(2), 500, 2);
+  const Spacing s = measure_spacing(points, plain);
+  int sum = 0;
+  for (const auto& [valence, count] : s.valence) sum += valence * static_cast<int>(count);
+  EXPECT_EQ(sum, 6 * static_cast<int>(points.size()) - 12);
+}
+
+TEST(Certify, ProvesBoundsOnEveryDomainThatHoldWhatBruteForceFinds) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    const PointSet points = mps_on(domain, 40, 3);
+    const auto proof = certify(points, plain);
+    ASSERT_TRUE(proof);
+    const double r_f = brute_r_f(points), r_c = brute_r_c_on(points, 1e-9);
+    EXPECT_LE(proof->r_f_lower, r_f);
+    EXPECT_NEAR(proof->r_f_lower, r_f, 1e-9 * r_f);
+    EXPECT_GE(proof->r_c_upper * (1 + 1e-12), r_c);
+    EXPECT_NEAR(proof->r_c_upper, r_c, 1e-8);
+    EXPECT_GE(proof->beta_upper, proof->r_c_upper / proof->r_f_lower);
+  }
+}
+
+/// The laws of OptimizeResult, on every domain, for every optimizer, with and without a sizing function.
+TEST(Optimizers, KeepTheirPromisesOnEveryDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const bool sized : {false, true}) {
+      PointSet input = mps_on(domain, 120, 11);
+      if (sized) input.sizing = std::make_shared<LinearSizing>(*domain, LinearSizingOptions{1, 1, 1.05});
+      const double before = measure_ratio(input, plain).beta();
+      const auto kinds = freedoms(input);
+      for (const Optimizer& optimizer : optimizers()) {
+        SCOPED_TRACE(name + " " + optimizer.name + (sized ? " with radii that vary" : ""));
+        Arguments arguments;
+        for (const Parameter& p : optimizer.parameters)
+          if (p.name == "max_sweeps") arguments["max_sweeps"] = 12;
+        Control one(1), two(2);
+        const OptimizeResult result = optimizer.run(input, arguments, one);
+        ASSERT_EQ(result.points.size(), input.size());
+        EXPECT_EQ(freedoms(result.points), kinds);
+        for (std::size_t i = 0; i < input.size(); ++i) {
+          ASSERT_FALSE(domain->why_outside(result.points[i])) << i;
+          const Freedom a = domain->freedom(input[i]), b = domain->freedom(result.points[i]);
+          ASSERT_EQ(a.dimensions, b.dimensions) << i;
+          if (a.dimensions == 0) {
+            ASSERT_EQ(input[i], result.points[i]);
+          }
+        }
+        const double after = measure_ratio(result.points, plain).beta();
+        EXPECT_LE(after, before);
+        EXPECT_NEAR(result.history.front().beta, before, 1e-6 * before);
+        EXPECT_EQ(optimizer.run(input, arguments, two).points.coordinates, result.points.coordinates);
+      }
+    }
+}
+
+TEST(OptBeta, ReachesItsTargetOnEveryDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    const PointSet input = mps_on(domain, 400, 2);
+    OptBetaOptions options;
+    options.beta = 0.76;
+    Control control;
+    const OptimizeResult result = opt_beta(input, options, control);
+    EXPECT_EQ(result.converged, true);
+    EXPECT_LE(measure_spacing(result.points, plain).beta, 0.76);
+  }
+}
+
+TEST(OptBeta, ReachesItsTargetWhereRadiiVary) {
+  const auto sphere = std::make_shared<Sphere>();
+  const auto sizing = std::make_shared<LinearSizing>(*sphere, LinearSizingOptions{0, 0.05, 0.15});
+  DiskRule rule;
+  rule.sizing = sizing.get();
+  Rng rng(1);
+  Control control;
+  PointSet input = throw_darts_over(sphere, rule, rng, control);
+  input.sizing = sizing;
+  OptBetaOptions options;
+  options.beta = 0.8;
+  const OptimizeResult result = opt_beta(input, options, control);
+  EXPECT_EQ(result.converged, true);
+  const Spacing before = measure_spacing(input, plain), after = measure_spacing(result.points, plain);
+  EXPECT_LE(after.beta, 0.8);
+  EXPECT_LT(after.beta_i_mean, before.beta_i_mean);
+}
+
+TEST(Cvt, EnergyNeverRisesOnAnyDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const CvtOptions::Variant variant : {CvtOptions::Variant::lloyd, CvtOptions::Variant::accelerated}) {
+      SCOPED_TRACE(name);
+      CvtOptions options;
+      options.variant = variant;
+      options.max_sweeps = 30;
+      double last = 1e300;
+      options.on_energy = [&](int, double energy) {
+        EXPECT_LE(energy, last * (1 + 1e-9));
+        last = energy;
+      };
+      Control control;
+      cvt(mps_on(domain, 150, 4), options, control);
+    }
+}
+
+}  // namespace
+}  // namespace wellspaced
