@@ -36,7 +36,11 @@ class Control {
 
   unsigned threads() const { return threads_; }
   void cancel() { cancelled_ = true; }
-  bool cancelled() const { return cancelled_ || (parent_ != nullptr && parent_->cancelled()); }
+  bool cancelled() const {
+    return cancelled_ || (flag_ != nullptr && *flag_) || (parent_ != nullptr && parent_->cancelled());
+  }
+  /// Is cancelled, too, once the flag is true. Requires: it outlives this; nobody checks yet.
+  void watch(const std::atomic<bool>& flag) { flag_ = &flag; }
   /// `message` is for the person whose work it ends: what happened, and the way out.
   void set_deadline(Clock::time_point deadline, std::string message = "the time limit for a job has passed") {
     deadline_ = deadline;
@@ -46,7 +50,8 @@ class Control {
   /// Call at least every few milliseconds of work.
   /// Errors: cancelled, deadline_exceeded.
   void check() const {
-    if (cancelled_) throw Error(ErrorCode::cancelled, "the computation was cancelled");
+    if (cancelled_ || (flag_ != nullptr && *flag_))
+      throw Error(ErrorCode::cancelled, "the computation was cancelled");
     if (parent_ != nullptr) parent_->check();
     if (Clock::now() > deadline_) throw Error(ErrorCode::deadline_exceeded, deadline_message_);
   }
@@ -65,6 +70,7 @@ class Control {
   unsigned threads_;
   const Control* parent_;
   std::atomic<bool> cancelled_ = false;
+  const std::atomic<bool>* flag_ = nullptr;
   Clock::time_point deadline_ = Clock::time_point::max();
   std::string deadline_message_;
   double last_fraction_ = 0;

@@ -52,11 +52,16 @@ PointSet points_to_set(std::shared_ptr<const Domain> domain, std::size_t n, cons
 /// Spacing of the triangular lattice with n points on that area: sqrt(2 area / (sqrt(3) n)); n > 0.
 double hexagonal_spacing(double area, std::size_t n);
 
+/// Points nearer to each other than this are refused: 1e-10 of the longest side of the domain's box.
+/// Coordinates are rounded to 1e-16 of that, so of points that far apart the triangulation is still theirs,
+/// and what is measured of it is right to 1e-5 at worst, where they see each other around the torus.
+double nearest_distance(const Domain& domain);
+
 /// Refuses what no operation on spacing can work with.
 ///
 /// Errors: degenerate_input for fewer than 3 points; invalid_parameters at /17 or /17/1 for a NaN, an
 /// infinity, or a point outside the domain; degenerate_input at /17 for a point that repeats an earlier one
-/// to within 1e-100 (r_f = 0).
+/// or is nearer to it than nearest_distance.
 /// Errors also: cancelled, deadline_exceeded. Cost: O(n) for even sets, O(n log n) for any.
 void require_usable(const PointSet& points, const Control& control);
 

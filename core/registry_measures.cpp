@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <utility>
 
 #include "core/analyze/spectrum.h"
 
@@ -95,17 +96,20 @@ ZonePlateOptions zone_plate_options(const Arguments& arguments) {
 
 std::vector<Parameter> differential_parameters() {
   const DifferentialOptions defaults;
+  Parameter sigma =
+      number("sigma", "standard deviation of the Gaussian kernel, in d_hex; reach / 256 to reach / 4",
+             {0.004, 4}, defaults.sigma);
+  sigma.fallback += ", at least reach / 256";
   return {number("reach", "how far the differences go, in d_hex of the equivalent uniform set", {1, 16},
                  defaults.reach),
-          number("sigma", "standard deviation of the Gaussian kernel, in d_hex; reach / 256 to reach / 4",
-                 {0.004, 4}, defaults.sigma),
+          std::move(sigma),
           whole("pixels", "of the image across, an odd number", {3, 1025}, std::to_string(defaults.pixels))};
 }
 
 DifferentialOptions differential_options(const Arguments& arguments) {
   DifferentialOptions options;
   options.reach = argument(arguments, "reach").value_or(options.reach);
-  options.sigma = argument(arguments, "sigma").value_or(options.sigma);
+  options.sigma = argument(arguments, "sigma").value_or(std::max(options.sigma, options.reach / 256));
   options.pixels = static_cast<int>(argument(arguments, "pixels").value_or(options.pixels));
   return options;
 }

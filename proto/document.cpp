@@ -1,6 +1,8 @@
 #include "proto/document.h"
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -16,10 +18,15 @@ namespace {
 
 using nlohmann::json;
 
-/// "0.5" in a query means the number: what a JSON body would hold.
+/// "0.5" in a query means the number: what a JSON body would hold; ".5" does, too.
 json scalar_from_text(const std::string& text) {
   const json value = json::parse(text, nullptr, false);
-  return value.is_number() ? value : json(text);
+  if (value.is_number()) return value;
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  const bool whole = read.ec == std::errc() && read.ptr == end && std::isfinite(number);
+  return whole ? json(number) : json(text);
 }
 
 /// measures=a,b is a list, enrich=true no text; both are the only ones of their kind.
@@ -52,6 +59,12 @@ json object_from_query(const Query& query) {
   return root;
 }
 
+std::string how_to_write_parameters(const Measure& measure) {
+  if (measure.parameters.empty()) return "the measure " + measure.name + " has no parameters; leave this out";
+  const std::string name = measure.name + "." + measure.parameters.front().name;
+  return "a measure is named in measures alone, and its parameters are written like " + name + "=...";
+}
+
 /// {"measures": ["a"], "a": {"x": 1}} becomes {"measures": [{"measure": "a", "x": 1}]}.
 void move_measure_parameters(json& root) {
   json none = json::array();
@@ -59,7 +72,11 @@ void move_measure_parameters(json& root) {
   for (json& wanted : listed ? root["measures"] : none) {
     const std::string name = wanted.get<std::string>();
     const auto given = root.find(name);
-    if (find_measure(name) == nullptr || given == root.end() || !given->is_object()) continue;
+    const Measure* const measure = find_measure(name);
+    if (measure == nullptr || given == root.end()) continue;
+    if (!given->is_object() || given->contains("measure"))
+      throw Error(ErrorCode::invalid_parameters, how_to_write_parameters(*measure),
+                  pointer_token(name) + (given->is_object() ? "/measure" : ""));
     json call = {{"measure", name}};
     call.update(*given);
     wanted = std::move(call);
@@ -111,8 +128,7 @@ json picture_of_query(const Query& query) {
     if (text.empty())
       throw Error(ErrorCode::invalid_parameters, "it is empty; give a value or leave it out",
                   pointer_of(key));
-    const json value = json::parse(text, nullptr, false);
-    picture[name] = value.is_number() && name != "name" ? value : json(text);
+    picture[name] = name != "name" ? scalar_from_text(text) : json(text);
   }
   // A name alone is the short form, and errors then point to it.
   return picture.is_object() && picture.size() == 1 && picture.contains("name") ? picture["name"] : picture;
@@ -143,9 +159,11 @@ JsonDocument read_document(const RawRequest& raw, const Limits& limits) {
       throw Error(ErrorCode::invalid_parameters,
                   "the sides of the torus are the parameters domain.width and domain.height", "/" + name);
   json root = object_from_query(raw.query);
-  if (root.contains("points"))
-    throw Error(ErrorCode::invalid_parameters, "the points are the body; leave this parameter out",
-                "/points");
+  for (const char* name : {"points", "sets", "compare"})
+    if (root.contains(name))
+      throw Error(ErrorCode::invalid_parameters,
+                  "the points are the body, one set of them; leave this parameter out, or send all as JSON",
+                  pointer_token(name));
   if (raw.operation == "analyze") move_measure_parameters(root);
   root["points"] = json::array();
   JsonDocument document{std::move(root), {}};

@@ -156,7 +156,8 @@ void require_affordable_measures(const AnalyzeRequest& request, const Limits& li
     }
 }
 
-/// The field that says how many points there are.
+}  // namespace
+
 std::string size_field(const Request& request) {
   if (const auto* generate = std::get_if<GenerateRequest>(&request.operation))
     return argument(generate->arguments, "count") ? "/count" : "/radius";
@@ -166,8 +167,6 @@ std::string size_field(const Request& request) {
   }
   return "/points";
 }
-
-}  // namespace
 
 double expected_points(const PointSource& source) {
   if (const auto* generated = std::get_if<GenerateRequest>(&source.from)) return expected(*generated);

@@ -93,7 +93,10 @@ ordered_json domain_schema() {
 
 ordered_json points_schema() {
   return {{"type", "array"},
-          {"description", "[[x, y], ...]; on a sphere [[x, y, z], ...]"},
+          {"description",
+           "[[x, y], ...]; on a sphere [[x, y, z], ...]; no two nearer to each other than 1e-10 of the "
+           "longest side "
+           "of the domain's box"},
           {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}}}};
 }
 

@@ -88,6 +88,9 @@ const Domain& domain_of(const PointSource& source);
 Cost expected_cost(const Request& request);
 void require_affordable(const Request& request, const Limits& limits);
 
+/// JSON pointer of the field that decides how many points a request is about.
+std::string size_field(const Request& request);
+
 /// The domain as requests and results write it.
 std::shared_ptr<const Domain> read_domain(const nlohmann::json& value, const std::string& pointer);
 nlohmann::ordered_json domain_to_json(const Domain& domain);

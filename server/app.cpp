@@ -1,5 +1,7 @@
 #include "server/app.h"
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
@@ -10,6 +12,7 @@
 #include "server/http/guard.h"
 #include "server/http/router.h"
 #include "server/log.h"
+#include "server/memory.h"
 #include "server/routes.h"
 
 namespace wellspaced {
@@ -73,6 +76,7 @@ class App::Impl {
             [this](const http::Exchange& exchange) {
               metrics_.count_exchange(exchange);
               log_exchange(exchange);
+              ++ended_;
             }) {
     guard_.listen();  // before the workers: nothing runs if the address can't be had
     pool_ = std::make_unique<WorkerPool>(
@@ -81,6 +85,7 @@ class App::Impl {
         [this](const JobFinished& finished) {
           metrics_.count_finished(finished);
           log_job(finished);
+          ++ended_;
         },
         [this] {
           ++context_.changes;
@@ -97,7 +102,7 @@ class App::Impl {
                          {"store", config_.store},
                          {"workers", config_.workers},
                          {"threads", config_.threads}});
-    std::thread closer([this] { close_when_asked(); });
+    std::thread closer([this] { tidy_until_asked_to_close(); });
     guard_.serve();
     stop();
     closer.join();
@@ -127,11 +132,15 @@ class App::Impl {
     }
   }
 
-  /// For a while after `stop`, the door stays open: balancers see readyz fail, and clients are told to come
-  /// back.
-  void close_when_asked() {
+  /// Until `stop`. For a while after that, the door stays open: balancers see readyz fail, and clients are
+  /// told to come back.
+  void tidy_until_asked_to_close() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stopping_; });
+    while (!changed_.wait_for(lock, tidy_every, [this] { return stopping_; })) {
+      lock.unlock();
+      tidy();
+      lock.lock();
+    }
     lock.unlock();
     log_info("draining", {{"seconds", config_.drain_seconds}});
     std::this_thread::sleep_for(std::chrono::duration<double>(config_.drain_seconds));
@@ -139,7 +148,20 @@ class App::Impl {
     guard_.stop();
   }
 
+  /// After work, which may have been large.
+  void tidy() {
+    constexpr std::size_t worth_it = 64u << 20;
+    const std::uint64_t ended = ended_;
+    if (ended == tidied_) return;
+    tidied_ = ended;
+    return_free_memory(worth_it);
+  }
+
+  static constexpr std::chrono::seconds tidy_every{2};
+
   const Config config_;
+  std::atomic<std::uint64_t> ended_ = 0;  ///< jobs and answers
+  std::uint64_t tidied_ = 0;              ///< ended_ when there was last tidied up
   Metrics metrics_;
   std::unique_ptr<JobStore> store_;
   Context context_;

@@ -71,6 +71,7 @@ class CoverageProof {
       : points_(points), periods_(*points.domain), bounds_(points.size(), infinity) {}
 
   void add(std::size_t i, std::span<const Spoke> spokes) {
+    if (spokes.empty()) return;
     double bound = 0;
     Side before = side(i, spokes.back());
     for (const Spoke& spoke : spokes) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -122,6 +123,8 @@ class Pass {
   }
 
   Distributions result(const Control& control) {
+    const auto& areas = samples_.cell_area;
+    require_whole(std::accumulate(areas.begin(), areas.end(), 0.0), static_cast<double>(areas.size()));
     Counters total;
     for (const Counters& some : counters_.all()) {
       total.angles.add(some.angles);

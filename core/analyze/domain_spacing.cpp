@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analyze/spacing_star.h"
 #include "core/error.h"
 #include "core/math.h"
 #include "core/parallel.h"
@@ -66,8 +67,12 @@ Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vect
   Spacing s;
   s.n = set.size();
   double r_f = infinity, r_f_free = infinity, r_c = 0, area = 0, squares = 0, edge_max = 0, disks = 0;
-  double most = -infinity, least = infinity;
-  for (std::size_t i = 0; i < set.size(); ++i) area += locals[i].area;
+  double most = -infinity, least = infinity, whole = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    area += locals[i].area;
+    whole += locals[i].area * set.unit(i) * set.unit(i);
+  }
+  if (set.domain().is_flat()) require_whole(whole, set.domain().area());
   const double mean_area = area / n;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const Local& local = locals[i];
@@ -89,6 +94,7 @@ Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vect
   s.r_f_free = r_f_free * unit;
   s.r_c = r_c * unit;
   s.beta = r_c / r_f;
+  if (!std::isfinite(s.beta)) throw hidden_triangles();
   s.rho = r_f;
   s.coverage = r_c;
   s.packing_density = disks * pi * r_f * r_f / (4 * set.domain().area());

@@ -1,5 +1,7 @@
 #include "core/analyze/local_measures.h"
 
+#include <numeric>
+
 #include "core/analyze/bond_order.h"
 #include "core/analyze/spacing_star.h"
 #include "core/math.h"
@@ -10,9 +12,10 @@ std::vector<double> measure_locally(const PointSet& points, LocalMeasure what, c
   if (what == LocalMeasure::psi6) return bond_order(points, control).psi6;
   const double d_hex = hexagonal_spacing(points.domain->area(), points.size());
   const double mean_area = points.domain->area() / static_cast<double>(points.size());
-  std::vector<double> values(points.size());
+  std::vector<double> values(points.size()), areas(points.size());
   visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) {
     const StarMeasure star = measure_star(i, spokes);
+    areas[i] = star.cell_area;
     switch (what) {
       case LocalMeasure::beta_i:
         values[i] = star.outradius / star.nearest;
@@ -33,6 +36,7 @@ std::vector<double> measure_locally(const PointSet& points, LocalMeasure what, c
         break;
     }
   });
+  require_whole(std::accumulate(areas.begin(), areas.end(), 0.0), points.domain->area());
   return values;
 }
 

@@ -9,7 +9,6 @@
 
 #include "core/analyze/domain_spacing.h"
 #include "core/analyze/spacing_star.h"
-#include "core/error.h"
 #include "core/large_vector.h"
 #include "core/math.h"
 #include "core/voronoi/moving_set.h"
@@ -27,10 +26,7 @@ double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 
 /// says otherwise is not one, and must not be believed.
 void require_possible(const Spacing& s, double area) {
   const double disks = static_cast<double>(s.n) * pi * s.r_c * s.r_c;
-  if (std::isfinite(s.beta) && disks >= area * (1 - 1e-9)) return;
-  throw Error(
-      ErrorCode::degenerate_input,
-      "the points are so nearly on one line that rounding hides their triangles; move some of them off it");
+  if (!std::isfinite(s.beta) || !(disks >= area * (1 - 1e-9))) throw hidden_triangles();
 }
 
 /// Sums and extremes of all stars, and what they say together.
@@ -47,6 +43,7 @@ class Summary {
     beta_max_ = std::max(beta_max_, beta_i);
     beta_sum_ += beta_i;
     nearest_sum_ += m.nearest;
+    cell_area_sum_ += m.cell_area;
     area_square_sum_ += excess * excess;
     edge_max_ = std::max(edge_max_, m.edge_max);
     cotangent_max_ = std::max(cotangent_max_, m.cotangent_max);
@@ -68,6 +65,7 @@ class Summary {
     s.r_c = r_c_;
     s.beta = r_c_ / r_f_;
     require_possible(s, area_);
+    require_whole(cell_area_sum_, area_);
     s.beta_i_max = beta_max_;
     s.beta_i_mean = beta_sum_ / n;
     s.rho = r_f_ / spacing;
@@ -89,7 +87,7 @@ class Summary {
   std::size_t n_;
   double area_, mean_area_;
   double r_f_ = infinity, r_c_ = 0, edge_max_ = 0, beta_max_ = 0;
-  double beta_sum_ = 0, nearest_sum_ = 0, area_square_sum_ = 0;
+  double beta_sum_ = 0, nearest_sum_ = 0, cell_area_sum_ = 0, area_square_sum_ = 0;
   double cotangent_max_ = -infinity, cotangent_min_ = infinity;
   std::array<std::size_t, 32> few_{};  ///< how many points have so few neighbors
   std::map<int, std::size_t> many_;

@@ -42,7 +42,9 @@ struct LocalSpacing {
 ///
 /// Guarantees
 /// 1. r_f, r_c, beta and each beta_i are those of the exact Delaunay triangulation of the points up to 1e-12
-/// relative; on surface meshes, whose charts are right to second order only, to what docs/domains.md says.
+/// relative, of points that nearly coincide to 1e-15 sides / distance (valences of those, where there is a
+/// boundary, may leave out edges of cells shorter than 1e-12 sides^2 / distance); on surface meshes, whose
+/// charts are right to second order only, to what docs/domains.md says.
 /// 2. For beta: angles lie in [asin(1/(2 beta)), 180 - 2 asin(1/(2 beta))], edges in [1, 2 beta].
 /// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
 /// O(n log n), about 0.45 us a point and thread for even sets. Determinism: the same bits on any number of

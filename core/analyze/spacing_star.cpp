@@ -114,5 +114,9 @@ StarMeasure measure_star(std::size_t i, std::span<const Spoke> spokes) {
   return HWY_DYNAMIC_DISPATCH(measure_star_here)(i, spokes);
 }
 
+void require_whole(double cell_areas, double area) {
+  if (!(std::fabs(cell_areas - area) <= 1e-5 * area)) throw hidden_triangles();
+}
+
 }  // namespace wellspaced
 #endif  // HWY_ONCE

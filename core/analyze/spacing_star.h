@@ -22,4 +22,8 @@ struct StarMeasure {
 /// vector width.
 StarMeasure measure_star(std::size_t i, std::span<const Spoke> spokes);
 
+/// Cells are all of the domain: stars whose cells don't add up to its area must not be believed.
+/// Errors: hidden_triangles if the sum differs by more than 1e-5.
+void require_whole(double cell_areas, double area);
+
 }  // namespace wellspaced

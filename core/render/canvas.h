@@ -44,7 +44,11 @@ struct TextStyle {
   Align align = Align::start;
   bool upward = false;  ///< turned so that it reads from bottom to top
   bool plain = false;   ///< `_` and `^` are themselves
+  bool halo = false;    ///< stands out from what it is written over
 };
+
+/// Of paper around text with a halo.
+inline constexpr double halo_px = 1.8;
 
 /// A piece of text that is written at one height: 0 on the line, -1 below it, 1 above it.
 struct TextRun {

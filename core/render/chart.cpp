@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/render/font.h"
@@ -58,6 +59,22 @@ LegendRows legend_rows(const std::vector<Series>& series, double width_px) {
   }
   rows.height_px = rows.entries.empty() ? 0 : y + legend_row_px;
   return rows;
+}
+
+/// What is left to be seen of a curve whose points lie closer than pixels: where it comes into a column, goes
+/// out of it, and how far up and down it goes in between.
+std::vector<Vec2> thinned(std::span<const Vec2> points) {
+  const auto column = [](Vec2 p) { return std::floor(p.x); };
+  const auto higher = [](Vec2 a, Vec2 b) { return a.y < b.y; };
+  std::vector<Vec2> kept;
+  for (auto first = points.begin(); first != points.end();) {
+    const auto end = std::find_if(first, points.end(), [&](Vec2 p) { return column(p) != column(*first); });
+    const auto [top, bottom] = std::minmax_element(first, end, higher);
+    for (auto p = first; p != end; ++p)
+      if (p == first || p == top || p == bottom || p + 1 == end) kept.push_back(*p);
+    first = end;
+  }
+  return kept;
 }
 
 class Painter {
@@ -122,6 +139,7 @@ class Painter {
   void line(const Series& s) {
     std::vector<Vec2> points;
     const auto flush = [&] {
+      points = thinned(points);
       if (points.size() > 1) canvas_.polyline(points, {std::nullopt, Pen{s.color, 1.6, s.dash_px}});
       if (s.marks || points.size() == 1)  // which has no line to be seen by
         for (const Vec2 p : points) canvas_.circle(p, 2.2, {s.color, std::nullopt});
@@ -144,6 +162,7 @@ class Painter {
       outline.push_back(place(s.x[i + 1], s.y[i]));
     }
     outline.push_back(place(s.x.back(), 0));
+    outline = thinned(outline);
     if (s.fill > 0) canvas_.polygon(outline, {s.color, std::nullopt, s.fill});
     canvas_.polyline(outline, {std::nullopt, Pen{s.color, 1.6, s.dash_px}});
   }
@@ -157,9 +176,10 @@ class Painter {
   void reference_label(const Reference& r) {
     if (r.y && *r.y <= chart_.y.high && *r.y >= chart_.y.low)
       canvas_.text({r.align == Align::end ? frame_.right() - 5 : frame_.x + 5, y_px(*r.y) - 4}, r.label,
-                   {11, faint_ink, r.align});
+                   {11, faint_ink, r.align, false, false, true});
     if (r.x && *r.x <= chart_.x.high && *r.x >= chart_.x.low)
-      canvas_.text({x_px(*r.x) + 4, frame_.y + 13}, r.label, {11, faint_ink, Align::start});
+      canvas_.text({x_px(*r.x) + 4, frame_.y + 13}, r.label,
+                   {11, faint_ink, Align::start, false, false, true});
   }
 
   const Chart& chart_;

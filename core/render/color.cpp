@@ -5,7 +5,7 @@
 namespace wellspaced {
 
 Rgb color_at(ColorMap map, double t) {
-  const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(map.size() - 1);
+  const double place = (t > 0 ? std::min(t, 1.0) : 0) * static_cast<double>(map.size() - 1);
   const auto k = std::min(static_cast<std::size_t>(place), map.size() - 2);
   const double s = place - static_cast<double>(k);
   const Rgb &a = map[k], &b = map[k + 1];

@@ -24,7 +24,7 @@ inline constexpr std::array<Rgb, 2> map_gray = {{{0, 0, 0}, {255, 255, 255}}};
 inline constexpr std::array<Rgb, 5> map_diverging = {
     {{0, 78, 130}, {118, 172, 210}, {246, 246, 246}, {238, 158, 104}, {166, 62, 0}}};
 
-/// The color at t, clamped to [0, 1].
+/// The color at t, clamped to [0, 1]; of NaN the first one.
 Rgb color_at(ColorMap map, double t);
 
 /// A color for curve or class k that color-blind readers can tell from the others; they repeat after seven.

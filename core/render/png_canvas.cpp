@@ -180,6 +180,11 @@ class PngCanvas final : public Canvas {
       font_.outline(run.text, size, base, style.upward, outline_);
       along += font_.width_px(run.text, size);
     }
+    if (style.halo && !outline_.points().empty()) {
+      FT_Outline view = outline_.view();
+      FT_Stroker_ParseOutline(with_pen({paper, 2 * halo_px}), &view, 0);
+      fill_stroke({paper, 2 * halo_px}, 1);
+    }
     fill(style.color, 1);
   }
 
@@ -217,6 +222,18 @@ class PngCanvas final : public Canvas {
     return stroker_;
   }
 
+  /// How many points of a line to stroke at a time. FreeType can't be stopped meanwhile, and takes long for
+  /// lines that go up and down over the same pixels.
+  std::size_t most_at_once(std::span<const Vec2> points) const {
+    constexpr std::size_t most_points = 256;
+    const double most_rows = 2 * static_cast<double>(std::max<std::size_t>(image_.rows, 100));
+    double rows = 0;
+    std::size_t k = 1;
+    for (; k < points.size() && k < most_points && (k < 2 || rows < most_rows); ++k)
+      rows += scale_ * std::abs(points[k].y - points[k - 1].y);
+    return k;
+  }
+
   void stroke(std::span<const Vec2> points, bool closed, const Pen& pen, double opacity) {
     if (pen.dash_px > 0) {
       for_each_dash(points, pen.dash_px, [&](std::span<const Vec2> piece) {
@@ -224,10 +241,17 @@ class PngCanvas final : public Canvas {
       });
       return;
     }
-    constexpr std::size_t longest = most_outline_points / 16;
-    if (points.size() > longest) {
-      stroke(points.first(longest), false, pen, opacity);
-      stroke(points.subspan(longest - 1), false, pen, opacity);
+    if (closed && points.size() > most_at_once(points)) {
+      std::vector<Vec2> around(points.begin(), points.end());
+      around.push_back(points.front());
+      return stroke(around, false, pen, opacity);
+    }
+    if (points.size() > most_at_once(points)) {
+      for (std::size_t from = 0; from + 1 < points.size();) {
+        const auto piece = points.subspan(from, most_at_once(points.subspan(from)));
+        stroke(piece, false, pen, opacity);
+        from += piece.size() - 1;
+      }
       return;
     }
     line_.clear();

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -8,6 +10,30 @@
 
 namespace wellspaced {
 namespace {
+
+/// How many pixels to make of each in a row of `pixels` on a length, so that viewers that interpolate show
+/// them with sharp edges: a whole number of times as many as the sheet has. One of those that are hardly
+/// larger than the sheet's.
+std::size_t pixels_a_pixel(std::size_t pixels, double length_px) {
+  constexpr double finer = 2, most_pixels = 2400;
+  const double times = length_px / static_cast<double>(pixels);
+  if (times < 1.5) return 1;
+  return static_cast<std::size_t>(std::ceil(times * (finer * length_px <= most_pixels ? finer : 1)));
+}
+
+Image enlarged(const Image& image, const Area& area) {
+  const std::size_t across = pixels_a_pixel(image.columns, area.width),
+                    down = pixels_a_pixel(image.rows, area.height);
+  if (across == 1 && down == 1) return image;
+  Image larger{image.columns * across, image.rows * down, {}};
+  larger.rgb.reserve(3 * larger.columns * larger.rows);
+  for (std::size_t y = 0; y < larger.rows; ++y) {
+    const std::uint8_t* row = &image.rgb[3 * image.columns * (y / down)];
+    for (std::size_t x = 0; x < larger.columns; ++x)
+      larger.rgb.insert(larger.rgb.end(), row + 3 * (x / across), row + 3 * (x / across) + 3);
+  }
+  return larger;
+}
 
 /// A length in pixels, to a hundredth.
 void append_px(std::string& out, double x) {
@@ -113,6 +139,9 @@ class SvgCanvas final : public Canvas {
   void paint_text(Vec2 at, std::span<const TextRun> runs, const TextStyle& style) override {
     close_group();
     out_ += "<text font-size=\"" + px(style.size_px) + "\" fill=\"" + hex(style.color) + "\"";
+    if (style.halo)
+      out_ += " stroke=\"" + hex(paper) + "\" stroke-width=\"" + px(2 * halo_px) +
+              "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (style.align != Align::start)
       out_ += style.align == Align::middle ? " text-anchor=\"middle\"" : " text-anchor=\"end\"";
     if (style.upward) {
@@ -140,7 +169,8 @@ class SvgCanvas final : public Canvas {
     out_ += "<image x=\"" + px(area.x) + "\" y=\"" + px(area.y) + "\" width=\"" + px(area.width) +
             "\" height=\"" + px(area.height) +
             "\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\"" +
-            " href=\"data:image/png;base64," + base64(write_png(image, 0, control_)) + "\"/>\n";
+            " href=\"data:image/png;base64," + base64(write_png(enlarged(image, area), 0, control_)) +
+            "\"/>\n";
   }
 
   /// An inner svg element clips what it holds, and needs no id for that.

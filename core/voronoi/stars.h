@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/control.h"
+#include "core/error.h"
 #include "core/point_set.h"
 
 namespace wellspaced {
@@ -22,12 +23,12 @@ using StarVisitor = std::function<void(std::size_t, std::span<const Spoke>)>;
 
 /// Visits the Delaunay star of every point of a torus, by whichever way suits the point set: wrap_stars or
 /// the kernel for even sets, CGAL for clustered ones, where looking around on a uniform grid would take
-/// quadratic time.
+/// quadratic time, and for points that nearly coincide.
 ///
 /// Guarantees: consecutive spokes and the center make a Delaunay triangle; periodic images count, own ones
-/// included. Among cocircular neighbors, ones that share no Voronoi edge may be left out. Requires:
-/// require_usable(points). Errors: degenerate_input for clusters so extreme on so thin a torus that the
-/// images needed exceed a hundred million. Cost: O(n log n).
+/// included. Among cocircular neighbors, ones that share no Voronoi edge may be left out. At least three
+/// spokes. Requires: require_usable(points). Errors: hidden_triangles; cancelled, deadline_exceeded. Cost:
+/// O(n log n).
 /// Determinism: the same stars on any number of threads.
 void visit_stars(const PointSet& points, const Control& control, const StarVisitor& visit);
 
@@ -36,9 +37,14 @@ bool visit_stars_by_wrapping(const PointSet& points, const Control& control, con
 
 void visit_stars_by_kernel(const PointSet& points, const Control& control, const StarVisitor& visit);
 
-/// Through CGAL's Delaunay triangulation of the points and as many of their images as prove to be needed.
+/// Through CGAL's Delaunay triangulation of the points and those of their images that prove to be needed, by
+/// exact predicates: however near to each other points are, on whichever sides of the seams, they are
+/// triangulated as they are. Images farther than a quarter of a period have rounded places.
 /// Sequential construction; also the oracle that the kernel is tested against.
 void visit_stars_by_cgal(const PointSet& points, const Control& control, const StarVisitor& visit);
+
+/// What to say where rounding leaves no triangulation to be believed: degenerate_input.
+Error hidden_triangles();
 
 /// Whether a uniform grid serves these points: no cell overfull, none empty, at about 24 points a cell.
 bool is_even(const PointSet& points);

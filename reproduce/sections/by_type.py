@@ -42,8 +42,8 @@ def fill(context, section):
                  f"opt-beta (this project's own, asked for {OWN_TARGET:.2f}). beta is the global ratio r_c / r_f; "
                  "beta_i is the local one, a point's farthest place in its cell over the distance of its nearest "
                  "neighbor, and at most beta.")
-    section.table("beta by type of point set: mean over the sets (smallest to largest); beta_upper is proven for "
-                  "all sets of the row.", COLUMNS, [row(group) for group in job.groups])
+    section.table("beta by type of point set: mean over the sets (smallest to largest); max beta_i is the largest "
+                  "of all sets, and beta_upper is proven for all sets of the row.", COLUMNS, [row(group) for group in job.groups])
     section.text(f"The plot's numbers: {paper.NOT_AVAILABLE}; the last column holds what the abstract says.")
     section.figure(job.picture("voronoi", size_px=245),
                    "Voronoi cells, colored by beta_i, of the first set of each type.",

@@ -66,6 +66,7 @@ void read_preferences(std::string_view text, Preference& preference) {
 Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
   const Limits& limits = context.config.limits;
   Control control(context.config.threads, &context.pictures);
+  if (wanted.gone) control.watch(*wanted.gone);
   if (is_picture(wanted.format)) {
     // Estimates hold for ordinary point sets.
     const std::chrono::duration<double> most(2 * std::min(limits.picture_seconds, 1e6));
@@ -75,7 +76,8 @@ Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
   try {
     return encode_result(result, wanted.format, wanted.picture, limits, control);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::cancelled) throw;
+    if (error.code() == ErrorCode::deadline_exceeded) throw error.within("/picture");
+    if (error.code() != ErrorCode::cancelled || !context.draining) throw;
     throw Error(ErrorCode::draining, "the server is stopping; ask again in a moment");
   }
 }
@@ -97,6 +99,7 @@ std::string query_value(const http::Request& request, const std::string& name) {
 Wanted read_wanted(const http::Request& request, const std::string& operation) {
   Wanted wanted;
   wanted.picture = picture_of_query(request.query);
+  wanted.gone = request.gone;
   wanted.format = negotiate(query_value(request, "format"), request.header("Accept"), formats_of(operation));
   return wanted;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,7 +17,8 @@ namespace wellspaced {
 /// In which form a client wants a result.
 struct Wanted {
   Format format = Format::json;
-  nlohmann::json picture;  ///< null: as the request says, or the default one
+  nlohmann::json picture;                         ///< null: as the request says, or the default one
+  std::shared_ptr<const std::atomic<bool>> gone;  ///< true once the client is, and wants nothing any more
 };
 
 /// What `Prefer` says; unknown preferences are ignored (RFC 7240).

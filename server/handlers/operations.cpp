@@ -34,7 +34,8 @@ void require_sync(const Request& request, const Limits& limits) {
               "this may take about " + std::to_string(static_cast<int>(seconds)) + " s, more than the " +
                   std::to_string(static_cast<int>(limits.sync_seconds)) +
                   " s that a synchronous answer may; send the header Prefer: respond-async and fetch the "
-                  "result later");
+                  "result later",
+              size_field(request));
 }
 
 JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query,

@@ -49,7 +49,7 @@ struct Connection {
   std::unique_ptr<EventSource> events;
   std::unique_ptr<Pending> pending;
   std::string pending_route;  ///< the route that made `pending`
-  bool abandoned = false;     ///< the client closed while its response was pending
+  bool abandoned = false;     ///< the client closed before its response was known
   Exchange exchange;
   bool reported = false;  ///< the exchange has been told to on_exchange
   Clock::time_point started;
@@ -60,8 +60,9 @@ struct Connection {
   Clock::time_point deadline;
   std::size_t progress_mark = 0;  ///< bytes moved when `deadline` was last put off
   bool readable = false;
-  bool surplus = false;  ///< above the connection limit: it only gets told so
-  bool queued = false;   ///< in the hub's list of connections to look at
+  std::shared_ptr<std::atomic<bool>> gone;  ///< what `request.gone` shows to whom works on it
+  bool surplus = false;                     ///< above the connection limit: it only gets told so
+  bool queued = false;                      ///< in the hub's list of connections to look at
   /// @}
 
   std::size_t unsent() const { return out_head.size() + out_body.size() - sent; }

@@ -108,6 +108,7 @@ class Guard::Impl {
     if (connection.abandoned) return abandon(connection);
     Request& request = connection.request;
     Response response = handle(connection);
+    if (connection.abandoned) return;
     connection.pending = std::move(response.pending);
     if (connection.pending) {
       connection.pending_route = std::move(response.route);
@@ -142,11 +143,17 @@ class Guard::Impl {
       connection.pending->abandon();
     } catch (...) {  // nobody is left to hear of it
     }
+    note_abandoned(connection);
+  }
+
+  static void note_abandoned(Connection& connection) {
+    connection.abandoned = true;
     connection.exchange.status = 499;
     connection.exchange.id = connection.request.id;
     connection.exchange.method = connection.request.method;
     connection.exchange.target = connection.request.target;
-    connection.exchange.route = connection.pending_route;
+    connection.exchange.route =
+        connection.pending_route.empty() ? connection.request.route : connection.pending_route;
   }
 
   Response handle(Connection& connection) {
@@ -155,6 +162,7 @@ class Guard::Impl {
       const std::unique_ptr<Pending> pending = std::move(connection.pending);
       return pending ? pending->finish() : handler_(request);
     } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled && *request.gone) note_abandoned(connection);
       if (error.code() == ErrorCode::internal) connection.exchange.failure = error.what();
       return to_response(to_problem(error), request.id);
     } catch (const std::exception& error) {

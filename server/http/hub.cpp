@@ -209,10 +209,13 @@ void Hub::tick() {
   next_tick_ = now_ + kTick;
   poll_wanted_ = true;
   std::vector<Connection*> late;
-  for (const auto& [connection, owned] : connections_)
-    if (connection->state != State::handling &&
-        (now_ > connection->deadline || (draining_ && now_ > drain_deadline_)))
+  for (const auto& [connection, owned] : connections_) {
+    if (connection->state == State::handling) {
+      if (peer_closed(connection->socket.get())) *connection->gone = true;
+    } else if (now_ > connection->deadline || (draining_ && now_ > drain_deadline_)) {
       late.push_back(connection);
+    }
+  }
   for (Connection* connection : late) expire(*connection);
   if (!accept_paused_ || draining_) return;
   accept_paused_ = false;

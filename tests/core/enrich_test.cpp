@@ -46,7 +46,7 @@ TEST(Enrich, ReachesTheCoverageWithPointsThatAreThatFarFromAllOthers) {
 }
 
 TEST(Enrich, FillsWhatACrowdLeavesFree) {
-  for (const double corner : {0.3, 1e-3, 1e-8}) {
+  for (const double corner : {0.3, 1e-3, 1e-5}) {
     PointSet input = random_points(1, 1, 1000, 1);
     for (double& c : input.coordinates) c *= corner;
     Control control(2);

@@ -155,15 +155,6 @@ TEST(Spacing, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST(Spacing, OfPointsThatNearlyCoincideIsRightOrRefused) {
-  PointSet near{std::make_shared<Torus>(), {0.5, 0.5, 0, 0, 1e-90, 0}};
-  const Spacing s = measure_spacing(near, Control());
-  EXPECT_DOUBLE_EQ(s.r_f, 1e-90);
-  EXPECT_DOUBLE_EQ(s.beta, s.r_c / 1e-90);
-  PointSet nearer{std::make_shared<Torus>(), {0.5, 0.5, 0, 0, 1e-200, 0}};
-  expect_error([&] { measure_spacing(nearer, Control()); }, ErrorCode::degenerate_input, "/2", "1e-100");
-}
-
 TEST(Spacing, OfPointsOnOneLineIsRight) {
   for (const bool upright : {false, true})
     for (const std::size_t n : {3u, 50u, 499u, 500u, 2000u}) {

@@ -196,7 +196,8 @@ TEST(StarMesh, RefusesWhatItCannotHold) {
     wheel.push_back({0.5 + 0.3 * std::cos(k * 0.157 + 0.01), 0.5 + 0.3 * std::sin(k * 0.157 + 0.01), 0});
   refused(wheel, "neighbors");
   PointSet twins = mps(100, 9);
-  twins.push_back({twins[0].x + 1e-12, twins[0].y, 0});
+  twins.set(0, {0.25, 0.25, 0});
+  twins.push_back({0.25 + 1.1e-10, 0.25, 0});
   refused(twins, "2^32nd");
 }
 

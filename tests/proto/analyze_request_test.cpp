@@ -151,6 +151,40 @@ TEST(ReadRequest, ReadsParametersOfMeasures) {
         read_table("analyze", "text/csv", "0,0\n0.5,0\n0,0.5\n", {{"spectrum.range", "2.5"}});
       },
       {"analyze", "spectrum.range alone", invalid, "/spectrum", "add spectrum to measures"});
+  const auto expect_refused_query = [](const Query& query, const char* where, const char* part) {
+    expect_refusal([&] { read_table("analyze", "text/csv", "0,0\n0.5,0\n0,0.5\n", query); },
+                   {"analyze", where, invalid, where, part});
+  };
+  expect_refused_query({{"measures", "spectrum"}, {"spectrum.measure", "local"}}, "/spectrum/measure",
+                       "named in measures alone");
+  expect_refused_query({{"measures", "spectrum"}, {"spectrum", "3"}}, "/spectrum", "spectrum.range=");
+  expect_refused_query({{"measures", "local"}, {"local", "3"}}, "/local", "has no parameters");
+  expect_refused_query({{"compare", "3"}}, "/compare", "the points are the body");
+  expect_refused_query({{"sets", "3"}}, "/sets", "the points are the body");
+}
+
+TEST(ReadRequest, ReadsNumbersInQueriesAsPeopleWriteThem) {
+  for (const char* half : {"0.5", ".5", "5e-1", "0.50"}) {
+    const Request request =
+        read_table("analyze", "text/csv", "0,0\n0.3,0\n0,0.4\n",
+                   {{"domain.width", half}, {"measures", "spectrum"}, {"spectrum.range", half}});
+    EXPECT_EQ(domain_of(analyze_of(request).groups[0].sets[0]).box().size.x, 0.5) << half;
+    EXPECT_EQ(argument(analyze_of(request).measures[0].arguments, "range"), 0.5) << half;
+  }
+  for (const char* none : {".", "0.5x", "inf", "nan", "1e999", "0x1"})
+    expect_refusal(
+        [&] {
+          read_table("analyze", "text/csv", "0,0\n0.3,0\n0,0.4\n", {{"domain.width", none}});
+        },
+        {"analyze", none, invalid, "/domain/width", "found a string"});
+}
+
+TEST(ReadRequest, TakesEveryReachOfTheDifferentialByItself) {
+  const std::string generate =
+      R"({"points":{"generate":{"count":10}},"measures":[{"measure":"differential","reach":)";
+  for (const char* reach : {"1", "4", "12.8", "13", "16"})
+    EXPECT_NO_THROW(read("analyze", generate + reach + "}]}")) << reach;
+  expect_refusals({{"analyze", generate + R"(16,"sigma":0.05}]})", invalid, "/measures/0/sigma", "reach"}});
 }
 
 TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
@@ -161,6 +195,10 @@ TEST(ReadRequest, RefusesFrequenciesBeyondTheMemory) {
        "/measures/0/range", "but the limit here is 4096 MiB; ask for a range of at most"},
       {"analyze", million + R"("spacing",{"measure":"periodogram","range":1000}]})", ErrorCode::too_large,
        "/measures/1/range", "ask for a range of at most"},
+      // Few points, but forty million numbers.
+      {"analyze",
+       R"({"points":{"generate":{"count":20}},"measures":[{"measure":"periodogram","range":1000}]})",
+       ErrorCode::too_large, "/measures/0/range", "ask for a range of at most 7"},
   });
 }
 

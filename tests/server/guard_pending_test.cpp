@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "server/http/guard.h"
 #include "tests/server/raw_client.h"
 
@@ -75,6 +76,25 @@ TEST(Guard, AbandonsAPendingResponseWhoseClientHasGone) {
   client.close();
   EXPECT_TRUE(eventually([&] { return gate.abandoned == 1 && gate.alive == 0; }));
   EXPECT_EQ(gate.finished, 0);
+}
+
+TEST(Guard, TellsAHandlerThatItsClientHasGone) {
+  std::atomic<bool> working = false, told = false;
+  std::atomic<int> status = 0;
+  Served server(
+      GuardOptions{},
+      [&](const Request& request) -> Response {
+        working = true;
+        told = eventually([&] { return request.gone->load(); });
+        throw Error(ErrorCode::cancelled, "nobody waits");
+      },
+      [&](const Exchange& exchange) { status = exchange.status; });
+  RawClient client(server.port());
+  client.say(get("/slow"));
+  ASSERT_TRUE(eventually([&] { return working.load(); }));
+  client.close();
+  EXPECT_TRUE(eventually([&] { return status == 499; }));
+  EXPECT_TRUE(told);
 }
 
 TEST(Guard, AnswersPipelinedRequestsAfterAPendingOneInOrder) {

@@ -226,6 +226,7 @@ TEST(ServiceInputLimits, WorkTooLongForASynchronousAnswerNamesTheHeaderToSend) {
   EXPECT_EQ(answer.status, 422);
   EXPECT_EQ(answer.problem(), "too-large-for-sync");
   EXPECT_THAT(answer.body, HasSubstr("Prefer: respond-async"));
+  EXPECT_EQ(answer.parsed()["errors"][0]["pointer"], "/points");
   EXPECT_EQ(caller.get("/v1/jobs").parsed()["jobs"].size(), 0u);
 }
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/domain/polygon.h"
 #include "core/domain/torus.h"
 #include "core/error.h"
 #include "core/point_set.h"
@@ -40,6 +41,21 @@ inline double brute_distance(const PointSet& points, Vec3 place) {
   return nearest;
 }
 
+/// Whether a disk has no place of the domain in it, as far as polygons can tell.
+inline bool lies_outside(const Domain& domain, Vec3 center, double radius) {
+  const auto* polygon = dynamic_cast<const Polygon*>(&domain);
+  if (polygon == nullptr || !polygon->why_outside(center)) return false;
+  double nearest = std::numeric_limits<double>::infinity();
+  const Vec2 c{center.x, center.y};
+  for (const auto& ring : polygon->rings())
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 a = ring[k], way = ring[(k + 1) % ring.size()] - a;
+      const double part = std::clamp(dot(c - a, way) / norm2(way), 0.0, 1.0);
+      nearest = std::min(nearest, norm(a + part * way - c));
+    }
+  return nearest > radius;
+}
+
 /// Proves r_c with distances only, no triangulation: branch and bound over squares. The distance to the
 /// nearest sample changes by at most the way between two places, so a square whose center is d away holds
 /// nothing above d + its half diagonal. The result is right to within `tolerance`.
@@ -53,8 +69,10 @@ inline double brute_r_c(const PointSet& points, double tolerance) {
   while (!open.empty()) {
     next.clear();
     for (const Square& s : open) {
-      const double d = brute_distance(points, {s.x + s.w / 2, s.y + s.h / 2, 0});
-      if (!points.domain->why_outside({s.x + s.w / 2, s.y + s.h / 2, 0})) best = std::max(best, d);
+      const Vec3 center{s.x + s.w / 2, s.y + s.h / 2, 0};
+      if (lies_outside(*points.domain, center, std::hypot(s.w, s.h) / 2)) continue;
+      const double d = brute_distance(points, center);
+      if (!points.domain->why_outside(center)) best = std::max(best, d);
       if (d + std::hypot(s.w, s.h) / 2 <= best + tolerance) continue;
       const bool wide = s.w > s.h;
       const double w = wide ? s.w / 2 : s.w, h = wide ? s.h : s.h / 2;

@@ -62,6 +62,20 @@ inline std::size_t occurrences(const std::string& text, const std::string& part)
   return n;
 }
 
+inline std::string from_base64(std::string_view text) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned word = 0, bits = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    word = word << 6 | static_cast<unsigned>(digits.find(c));
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(word >> bits & 255u);
+  }
+  return bytes;
+}
+
 /// Without the whole picture in the message.
 inline void expect_part(const std::string& text, const std::string& part) {
   EXPECT_TRUE(text.find(part) != std::string::npos) << "no " << part;

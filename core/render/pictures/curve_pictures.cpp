@@ -46,6 +46,11 @@ Drawing make_pair_correlation(std::span<const PictureGroup> groups, const Argume
   return with_margin(with_caption(std::move(drawing), groups.size() == 1 ? groups[0].label : ""), 16);
 }
 
+/// More bins than pixels may go up and down over the whole frame in each of its columns.
+double drawing_seconds(double bins, double width_px) {
+  return bins > width_px ? 5e-7 * width_px * correlation_shape * width_px : 0;
+}
+
 struct Quantity {
   const char* title;
   Histogram Distributions::*histogram;
@@ -172,7 +177,10 @@ Picture pair_correlation_picture() {
   picture.parameters.push_back(size_parameter(correlation_px, least_chart_px));
   picture.make = make_pair_correlation;
   picture.cost = [](const SetsSize& size, const Arguments& arguments) {
-    return pair_correlation_cost(size, pair_correlation_options(arguments));
+    const PairCorrelationOptions options = pair_correlation_options(arguments);
+    Cost cost = pair_correlation_cost(size, options);
+    cost.seconds += drawing_seconds(options.bins, size_px_of(arguments, correlation_px));
+    return cost;
   };
   picture.sheet = [](std::span<const SetsSize>, const Arguments& arguments) {
     const double width_px = size_px_of(arguments, correlation_px);

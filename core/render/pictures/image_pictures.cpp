@@ -64,10 +64,9 @@ Drawing make_zone_plate(std::span<const PictureGroup> groups, const Arguments& a
   const double size_px = size_px_of(arguments, plate_px);
   std::vector<Drawing> panels;
   for (const PictureGroup& group : groups) panels.push_back(plate_of(group, options, size_px, control));
-  Drawing function =
-      text_rows({"(1 + cos πkρ^2) / 2,",
-                 "kρ at the end of the lower edge = " + number_label(options.frequency, 3) + " √(n/A)"},
-                600, 12);
+  Drawing function = text_rows(
+      {"(1 + cos πkρ^2) / 2,", "k = " + number_label(options.frequency, 3) + " w √(n/A), ρ in widths w"}, 600,
+      12);
   return with_margin(
       stack_of({grid_of(std::move(panels), columns_of(groups.size()), panel_gap_px), std::move(function)}, 8),
       16);
