@@ -163,6 +163,7 @@ Made optimize(const OptimizeRequest& request, Control& control) {
                           {"parameters", parameters_to_json(*request.method, request.arguments)},
                           {"beta", s.beta},
                           {"r_f", s.r_f},
+                          {"r_f_free", s.r_f_free},
                           {"r_c", s.r_c},
                           {"rho", s.rho},
                           {"beta_i_max", s.beta_i_max},

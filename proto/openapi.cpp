@@ -153,6 +153,22 @@ ordered_json request_body(const std::string& operation) {
   return {{"required", true}, {"content", std::move(content)}};
 }
 
+/// Fields of domains that have room in a query: numbers and words, each with what it may be on any of them.
+ordered_json plain_domain_fields() {
+  ordered_json fields = ordered_json::object();
+  for (const ordered_json& domain : openapi_schemas()["Domain"]["oneOf"])
+    for (const auto& [name, schema] : domain["properties"].items()) {
+      if (schema.value("type", "") == "array" || schema.value("type", "") == "object") continue;
+      if (!fields.contains(name)) {
+        fields[name] = schema;
+        continue;
+      }
+      if (!schema.contains("enum")) continue;
+      for (const ordered_json& choice : schema["enum"]) fields[name]["enum"].push_back(choice);
+    }
+  return fields;
+}
+
 /// What goes into the query when the body is a table of points, from the schemas of the same JSON request.
 void add_table_parameters(ordered_json& parameters, const std::string& operation) {
   const std::string where = " (with points as npy or csv in the body; else a field of the body)";
@@ -192,8 +208,7 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
     for (const char* name : {"sizing.radius", "sizing.from", "sizing.to"})
       add(name, {{"type", "number"}, {"description", "a radius of the sizing function"}});
   }
-  const ordered_json domain = openapi_schemas()["Domain"]["properties"];
-  for (const auto& [name, schema] : domain.items()) add("domain." + name, schema);
+  for (const auto& [name, schema] : plain_domain_fields().items()) add("domain." + name, schema);
 }
 
 ordered_json run_responses(const std::string& operation) {

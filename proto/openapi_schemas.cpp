@@ -159,7 +159,7 @@ void add_results(ordered_json& schemas) {
   generate["parameters"] = {{"type", "object"}};
   generate["points"] = schema_reference("Points");
   ordered_json optimize = generate;
-  for (const char* name : {"beta", "r_f", "r_c", "rho", "beta_i_max", "beta_i_mean"})
+  for (const char* name : {"beta", "r_f", "r_f_free", "r_c", "rho", "beta_i_max", "beta_i_mean"})
     optimize[name] = spacing_schema()["properties"][name];
   const ordered_json proven = certificate_schema();
   for (const auto& [name, schema] : proven["properties"].items()) optimize[name] = schema;

@@ -102,16 +102,20 @@ class Cover {
   std::size_t steps_ = 0;
 };
 
-/// Smallest straight distance of two samples.
+/// Smallest straight distance of two samples that are not both corners of the domain.
 double shortest(const PointSet& points, const NeighborGrid& grid, double about, const Control& control) {
   double least2 = std::numeric_limits<double>::infinity();
   std::vector<Neighbor> neighbors;
+  std::vector<bool> fixed(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    fixed[i] = points.domain->freedom(points[i]).dimensions == 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % 1024 == 0) control.check();
     neighbors.clear();
     grid.gather(points[i], static_cast<std::uint32_t>(i), about, neighbors);
     for (const Neighbor& neighbor : neighbors)
-      if (neighbor.id != i) least2 = std::min(least2, norm2(neighbor.offset));
+      if (neighbor.id != i && !(fixed[i] && fixed[neighbor.id]))
+        least2 = std::min(least2, norm2(neighbor.offset));
   }
   return std::sqrt(least2);
 }
@@ -143,7 +147,8 @@ std::optional<Certificate> certify_domain(const PointSet& points, const Control&
     if (!Cover(points, grid, radius, control).holds()) continue;
     Certificate proof;
     proof.r_c_upper = from_straight(domain, radius + hidden) * (1 + rounding);
-    const double straight = shortest(points, grid, to_straight(domain, measured.r_f) * (1 + 1e-9), control);
+    const double straight =
+        shortest(points, grid, to_straight(domain, measured.r_f_free) * (1 + 1e-9), control);
     proof.r_f_lower = from_straight(domain, straight - hidden) * (1 - rounding);
     proof.beta_upper = proof.r_c_upper / proof.r_f_lower * (1 + rounding);
     return proof;

@@ -15,7 +15,7 @@ bool can_be_certified(const PointSet& points);
 /// 1. r_c: the domain's triangles are halved until each is within one disk of a radius around some sample;
 /// the radius is tried a little above what was measured. What rounding may hide, of corners and of distances,
 /// is added to it.
-/// 2. r_f: all pairs that are near enough, distances rounded down.
+/// 2. r_f: all pairs that are near enough, but those of two corners of the domain; distances rounded down.
 ///
 /// Guarantees: as of certify; the bounds are those of measure_spacing to 1e-9 relative. Nothing if none of
 /// the radii that are tried, up to 1e-6 above what was measured, could be proven. Errors: cancelled,

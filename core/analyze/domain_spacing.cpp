@@ -93,9 +93,9 @@ Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vect
   s.r_f = r_f * unit;
   s.r_f_free = r_f_free * unit;
   s.r_c = r_c * unit;
-  s.beta = r_c / r_f;
+  s.beta = r_c / r_f_free;
   if (!std::isfinite(s.beta)) throw hidden_triangles();
-  s.rho = r_f;
+  s.rho = r_f_free;
   s.coverage = r_c;
   s.packing_density = disks * pi * r_f * r_f / (4 * set.domain().area());
   s.cell_area_sd = std::sqrt(squares / n) / mean_area;

@@ -15,11 +15,11 @@ struct Spacing {
   double r_f = 0;       ///< conflict radius: smallest distance between two samples
   double r_f_free = 0;  ///< the same without pairs of two corners of the domain, which can't move
   double r_c = 0;   ///< coverage radius: largest distance from a point of the domain to its nearest sample
-  double beta = 0;  ///< r_c / r_f, the global ratio; at least 1/sqrt(3) in the plane
+  double beta = 0;  ///< r_c / r_f_free, the global ratio; at least 1/sqrt(3) in the plane
   double beta_i_max = 0,
-         beta_i_mean = 0;      ///< of beta_i = r_c^i / r_f^i, the local ratios; beta_i_max <= beta
-  double rho = 0;              ///< r_f / d_hex, d_hex = sqrt(2 A / (sqrt(3) n)); 1 for the triangular lattice
-  double coverage = 0;         ///< r_c / d_hex
+         beta_i_mean = 0;  ///< of beta_i = r_c^i / r_f^i, the local ratios; beta_i_max <= beta
+  double rho = 0;       ///< r_f_free / d_hex, d_hex = sqrt(2 A / (sqrt(3) n)); 1 for the triangular lattice
+  double coverage = 0;  ///< r_c / d_hex
   double packing_density = 0;  ///< n pi r_f^2 / (4 A)
   double nearest_mean = 0;     ///< mean distance to the nearest sample / d_hex
   double cell_area_sd = 0;     ///< standard deviation of the Voronoi cells' areas / their mean

@@ -110,8 +110,8 @@ double Sphere::distance_to_chart(double distance) const {
 Vec2 Sphere::way_to(Vec3 base, const Neighbor& neighbor) const {
   const Vec3 here = unit(base), there = unit(base + neighbor.offset);
   const Vec2 t = Frame(here).coordinates(there - here);
-  const double length = norm(t);
-  return length == 0 ? Vec2{} : (radius_ * angle(here, there) / length) * t;
+  const double length = norm(t), way = radius_ * angle(here, there);
+  return length == 0 ? Vec2{way, 0} : (way / length) * t;  // any way leads to the other end of the world
 }
 
 /// Reference for the area: Van Oosterom and Strackee, 1983; for the mean: half the sum of the edges' angles

@@ -5,6 +5,7 @@
 #include "core/domain/torus.h"
 #include "core/error.h"
 #include "proto/measures/rows.h"
+#include "proto/request.h"
 
 namespace wellspaced {
 namespace {
@@ -34,9 +35,7 @@ void require_meaning(const Measure& measure, const Domain& domain, const std::st
 }
 
 void require_same_domain(const Domain& first, const Domain& other, const std::string& where) {
-  const Vec3 a = first.box().size, b = other.box().size;
-  const bool same = a == b && first.box().periodic == other.box().periodic;
-  if (first.type() == other.type() && same) return;
+  if (&first == &other || domain_to_json(first) == domain_to_json(other)) return;
   throw Error(
       ErrorCode::invalid_parameters,
       "this set is on another domain than the first one; averages are over sets on one domain, compare "

@@ -12,14 +12,17 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr NumberField<Spacing> fields[] = {
-    {"beta", &Spacing::beta, "global ratio r_c / r_f"},
+    {"beta", &Spacing::beta, "global ratio r_c / r_f_free"},
     {"r_f", &Spacing::r_f,
      "conflict radius: smallest distance between two points; a point's own images around the torus don't "
      "count"},
+    {"r_f_free", &Spacing::r_f_free,
+     "the same without pairs of two corners of the domain, which can't move; on a torus it is r_f"},
     {"r_c", &Spacing::r_c, "coverage radius: largest distance of a domain point to its nearest sample"},
     {"beta_i_max", &Spacing::beta_i_max, "largest local ratio r_c^i / r_f^i; at most beta"},
     {"beta_i_mean", &Spacing::beta_i_mean, "mean local ratio"},
-    {"rho", &Spacing::rho, "r_f / d_hex, d_hex = sqrt(2 A / (sqrt(3) n))"},
+    {"rho", &Spacing::rho,
+     "r_f_free / d_hex; d_hex = sqrt(2 A / (sqrt(3) n)) where nothing bounds the domain"},
     {"coverage", &Spacing::coverage, "r_c / d_hex"},
     {"packing_density", &Spacing::packing_density, "n pi r_f^2 / (4 A)"},
     {"nearest_mean", &Spacing::nearest_mean, "mean distance to the nearest sample / d_hex"},

@@ -202,6 +202,12 @@ TEST(Sphere, RefusesBadRadii) {
     expect_error([&] { Sphere{bad}; }, ErrorCode::invalid_parameters, "/radius");
 }
 
+TEST(Sphere, KnowsTheWayToTheOtherEndOfTheWorld) {
+  const Sphere sphere(2);
+  EXPECT_NEAR(norm(sphere.way_to({0, 0, 2}, {{0, 0, -4}, 0})), 2 * 3.14159265358979, 1e-13);
+  EXPECT_EQ(norm(sphere.way_to({0, 2, 0}, {{0, 0, 0}, 0})), 0);
+}
+
 TEST(Sphere, SaysHowFarAPointIsOff) {
   const auto why = Sphere(1).why_outside({0, 0, 1.1});
   ASSERT_TRUE(why);

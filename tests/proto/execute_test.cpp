@@ -89,7 +89,7 @@ TEST(Execute, EnrichLeavesMaximalSetsAlone) {
 TEST(Execute, OptimizeTellsWhatItReached) {
   const Result result = run("optimize", optimize_400);
   EXPECT_THAT(keys(result.summary),
-              ElementsAre("n", "method", "parameters", "beta", "r_f", "r_c", "rho", "beta_i_max",
+              ElementsAre("n", "method", "parameters", "beta", "r_f", "r_f_free", "r_c", "rho", "beta_i_max",
                           "beta_i_mean", "sweeps", "beta_upper", "r_f_lower", "r_c_upper", "converged",
                           "history", "seed", "version", "domain"));
   const Spacing spacing = measure_spacing(result.points(), Control());

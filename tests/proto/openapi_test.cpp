@@ -82,8 +82,8 @@ TEST(Openapi, ListsTheQueryOfRequestsWhosePointsAreNotJson) {
   const auto optimize = query_names("/v1/optimize"), analyze = query_names("/v1/analyze");
   for (const Optimizer& method : optimizers())
     for (const Parameter& p : method.parameters) EXPECT_EQ(optimize.count(p.name), 1u) << p.name;
-  for (const char* name :
-       {"method", "enrich", "format", "picture", "domain.type", "domain.width", "domain.height"})
+  for (const char* name : {"method", "enrich", "format", "picture", "domain.type", "domain.width",
+                           "domain.height", "domain.radius", "domain.wkt"})
     EXPECT_EQ(optimize.count(name), 1u) << name;
   for (const char* name : {"measures", "format", "picture", "domain.type", "domain.width", "domain.height"})
     EXPECT_EQ(analyze.count(name), 1u) << name;

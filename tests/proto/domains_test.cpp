@@ -1,0 +1,111 @@
+// Every operation on every domain that requests can name.
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "core/analyze/spacing.h"
+#include "proto/execute.h"
+#include "proto/result.h"
+#include "tests/support/proto_requests.h"
+#include "tests/support/refusals.h"
+
+namespace wellspaced {
+namespace {
+
+using testing::expect_refusals;
+using testing::invalid;
+using testing::run;
+
+const std::string ring = R"([[0,0],[2,0.5],[1,1],[2,2],[0,1.5]])", hole = R"([[0.3,0.6],[0.6,1],[0.6,0.6]])";
+
+const std::vector<std::string> all_domains = {
+    R"({"type":"box"})",
+    R"({"type":"box","width":2,"height":3})",
+    R"({"type":"torus","periodic":[true,false]})",
+    R"({"type":"box","periodic":[false,true],"width":2})",
+    R"({"type":"sphere"})",
+    R"({"type":"sphere","radius":20})",
+    R"({"type":"polygon","rings":[)" + ring + "," + hole + "]}",
+    R"({"type":"Polygon","coordinates":[)" + ring + "]}",
+};
+
+TEST(Domains, AreGeneratedOnOptimizedAndMeasured) {
+  for (const std::string& domain : all_domains) {
+    SCOPED_TRACE(domain);
+    const std::string generate = R"({"domain":)" + domain + R"(,"count":150,"seed":3})";
+    const Result made = run("generate", generate);
+    EXPECT_EQ(made.points().size(), 150u);
+    const Result optimized = run("optimize", R"({"points":{"generate":)" + generate + R"(},"beta":0.82})");
+    const auto& summary = optimized.summary;
+    EXPECT_EQ(summary["converged"], true);
+    EXPECT_LE(summary["beta_upper"], 0.82);
+    EXPECT_GE(summary["beta_upper"], summary["beta"]);
+    EXPECT_NEAR(summary["beta_upper"].get<double>(), summary["beta"].get<double>(), 1e-8);
+    const Result analyzed =
+        run("analyze", R"({"points":{"generate":)" + generate + R"(},"measures":["spacing","certificate"]})");
+    EXPECT_LE(analyzed.summary["spacing"]["beta"], 1.000001);
+    EXPECT_EQ(analyzed.summary["domain"], made.summary["domain"]);
+  }
+}
+
+TEST(Domains, OfKeptResultsComeBackAsTheyWere) {
+  for (const std::string& domain : all_domains) {
+    SCOPED_TRACE(domain);
+    const Result made = run("generate", R"({"domain":)" + domain + R"(,"count":40})");
+    const std::string bytes = store_result(made);
+    const Result back = load_result(bytes);
+    EXPECT_EQ(back.points().coordinates, made.points().coordinates);
+    EXPECT_EQ(domain_to_json(*back.points().domain), domain_to_json(*made.points().domain));
+    EXPECT_EQ(store_result(back), bytes);
+  }
+}
+
+TEST(Domains, OfRectanglesAreTheSameHoweverTheyAreNamed) {
+  EXPECT_EQ(
+      run("generate", R"({"domain":{"type":"box","periodic":[true,true]},"count":50})").summary["domain"],
+      run("generate", R"({"count":50})").summary["domain"]);
+  EXPECT_EQ(run("generate", R"({"domain":{"type":"torus","periodic":[false,false]},"count":50})")
+                .points()
+                .coordinates,
+            run("generate", R"({"domain":{"type":"box"},"count":50})").points().coordinates);
+}
+
+TEST(Domains, TakePointsOfTheirDimensionInPlace) {
+  const Result result = run("analyze", R"({"domain":{"type":"sphere","radius":2},
+      "points":[[2,0,0],[-2,0,0],[0,2,0],[0,-2,0],[0,0,2],[0,0,-2]]})");
+  EXPECT_NEAR(result.summary["spacing"]["r_f"].get<double>(), 3.14159265358979, 1e-12);  // a quarter turn
+  EXPECT_NEAR(result.summary["spacing"]["r_c"].get<double>(), 2 * 0.955316618124509, 1e-12);
+  EXPECT_EQ(result.summary["spacing"]["valence"], nlohmann::ordered_json({{"4", 6}}));
+}
+
+TEST(Domains, AreRefusedWhereTheyCannotBe) {
+  const std::string box = R"("domain":{"type":"box"})";
+  expect_refusals({
+      {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type",
+       "torus, box, sphere, polygon"},
+      {"generate", R"({"count":10,"domain":{"type":"box","periodic":true}})", invalid, "/domain/periodic",
+       "two booleans"},
+      {"generate", R"({"count":10,"domain":{"type":"box","width":-1}})", invalid, "/domain/width", "1e-6"},
+      {"generate", R"({"count":10,"domain":{"type":"sphere","radius":0}})", invalid, "/domain/radius",
+       "1e-6"},
+      {"generate", R"({"count":10,"domain":{"type":"sphere","width":1}})", invalid, "/domain/width",
+       "known here are: radius, type"},
+      {"generate", R"({"method":"square","count":10,)" + box + "}", invalid, "/method", "for a torus only"},
+      {"generate", R"({"radius":2,)" + box + "}", ErrorCode::infeasible, "/radius", "this box"},
+      {"optimize", R"({"points":{"generate":{"count":10,)" + box + R"(}},"enrich":true})", invalid, "/enrich",
+       "on a torus only"},
+      {"optimize", R"({"points":[[0.1,0.1],[0.5,1.5],[0.9,0.2]],)" + box + "}", invalid, "/points/1",
+       "outside the box"},
+      {"analyze", R"({"points":[[1,0,0],[0,1,0],[0,0,1.5]],"domain":{"type":"sphere"}})", invalid,
+       "/points/2", "not on the sphere"},
+      {"analyze", R"({"points":[[1,0],[0,1],[0.5,0]],"domain":{"type":"sphere"}})", invalid, "/points",
+       "3 coordinates"},
+      {"analyze", R"({"points":{"generate":{"count":10,)" + box + R"(}},"measures":["spectrum"]})", invalid,
+       "/measures/0", "on a torus only"},
+      {"analyze", R"({"sets":[{"generate":{"count":10,)" + box + R"(}},{"generate":{"count":10}}]})", invalid,
+       "/sets/1", "another domain"},
+  });
+}
+
+}  // namespace
+}  // namespace wellspaced
