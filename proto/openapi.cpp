@@ -156,7 +156,8 @@ ordered_json request_body(const std::string& operation) {
 /// Fields of domains that have room in a query: numbers and words, each with what it may be on any of them.
 ordered_json plain_domain_fields() {
   ordered_json fields = ordered_json::object();
-  for (const ordered_json& domain : openapi_schemas()["Domain"]["oneOf"])
+  const ordered_json domains = openapi_schemas()["Domain"]["oneOf"];
+  for (const ordered_json& domain : domains)
     for (const auto& [name, schema] : domain["properties"].items()) {
       if (schema.value("type", "") == "array" || schema.value("type", "") == "object") continue;
       if (!fields.contains(name)) {
@@ -208,7 +209,8 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
     for (const char* name : {"sizing.radius", "sizing.from", "sizing.to"})
       add(name, {{"type", "number"}, {"description", "a radius of the sizing function"}});
   }
-  for (const auto& [name, schema] : plain_domain_fields().items()) add("domain." + name, schema);
+  const ordered_json fields = plain_domain_fields();
+  for (const auto& [name, schema] : fields.items()) add("domain." + name, schema);
 }
 
 ordered_json run_responses(const std::string& operation) {

@@ -78,6 +78,38 @@ ordered_json sphere_schema() {
   return schema;
 }
 
+ordered_json polygon_schema() {
+  const ordered_json corner = {
+      {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const ordered_json ring = {{"type", "array"}, {"items", corner}, {"minItems", 3}};
+  ordered_json rings = {
+      {"type", "array"},
+      {"description", "the outer ring, then the holes; either way around, the first corner may be repeated"},
+      {"items", ring},
+      {"minItems", 1}};
+  ordered_json properties = {{"type", {{"type", "string"}, {"enum", {"polygon"}}}},
+                             {"rings", std::move(rings)},
+                             {"geojson", typed("object", "a Polygon, read as planar")},
+                             {"wkt", typed("string", "POLYGON ((x y, ...), ...)")}};
+  ordered_json schema = closed(object(std::move(properties), {"type"}));
+  schema["oneOf"] = ordered_json::array();
+  for (const char* source : {"rings", "geojson", "wkt"}) schema["oneOf"].push_back({{"required", {source}}});
+  schema["title"] = "polygon";
+  schema["description"] =
+      "A polygon with holes, not necessarily convex. Its corners are points of every set made on it; other "
+      "points of its boundary stay on their edge.";
+  return schema;
+}
+
+ordered_json geojson_schema() {
+  const ordered_json types = {"Polygon", "MultiPolygon", "Feature", "FeatureCollection"};
+  ordered_json schema = object({{"type", {{"type", "string"}, {"enum", types}}}}, {"type"});
+  schema["title"] = "GeoJSON";
+  schema["description"] =
+      "A GeoJSON object that is or holds one polygon, read as planar; as if it were given as a polygon.";
+  return schema;
+}
+
 ordered_json domain_schema() {
   return {
       {"description", "Where points live; the unit torus where none is given."},
@@ -88,7 +120,7 @@ ordered_json domain_schema() {
         rectangle_schema("box", false,
                          "The same rectangle bounded along one axis or both, and closed there; points with "
                          "a coordinate that is exactly 0 or the side are on the boundary, and stay there."),
-        sphere_schema()}}};
+        sphere_schema(), polygon_schema(), geojson_schema()}}};
 }
 
 ordered_json points_schema() {
