@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct Parameter {
   bool exclusive_minimum = false, exclusive_maximum = false;
   std::string fallback;  ///< what holds when it is not given, as JSON text or as words; empty: nothing
   bool required = false;
-  bool density = false;  ///< exactly one of a method's density parameters must be given
+  bool density = false;  ///< exactly one of a method's density parameters must be given; with a sizing
+                         ///< function, which says the radii, none or `count`
   std::string infeasible_below =
       "";  ///< why a value below the minimum can't exist; empty: it is merely not allowed
   std::string infeasible_above = "";      ///< the same for a value above the maximum
@@ -56,11 +58,23 @@ struct Method {
   std::vector<Parameter> parameters;
 };
 
+/// Where points are to be made, and how dense where.
+struct Setting {
+  template <class AnyDomain>
+  Setting(std::shared_ptr<AnyDomain> on,
+          std::shared_ptr<const Sizing> with = nullptr)  // NOLINT: a domain is one
+      : domain(std::move(on)), sizing(std::move(with)) {}
+
+  std::shared_ptr<const Domain> domain;
+  std::shared_ptr<const Sizing> sizing;  ///< none: the same radius everywhere
+};
+
 struct Generator : Method {
   bool random = true;       ///< takes a seed
   bool only_torus = false;  ///< knows no other domain
-  PointSet (*run)(const std::shared_ptr<const Domain>&, const Arguments&, Rng&, Control&) = nullptr;
-  double (*expected_count)(const Domain&, const Arguments&) = nullptr;
+  bool takes_sizing = false;
+  PointSet (*run)(const Setting&, const Arguments&, Rng&, Control&) = nullptr;
+  double (*expected_count)(const Setting&, const Arguments&) = nullptr;
   /// What can be refused before the work, beyond the parameters' ranges; same errors as `run`.
   void (*check)(const Domain&, const Arguments&) = nullptr;
   Cost cost_a_point;  ///< on the torus

@@ -23,21 +23,47 @@ std::uint64_t count_of(const Arguments& a) {
   return static_cast<std::uint64_t>(argument(a, "count").value());
 }
 
-/// On any domain but the torus, for which there are faster ways.
-PointSet by_darts(const std::shared_ptr<const Domain>& domain, double coverage, const Arguments& a, Rng& rng,
-                  Control& control) {
+bool is_plain_torus(const Setting& setting) { return setting.sizing == nullptr && is_torus(*setting.domain); }
+
+/// On any domain with any sizing function; for the plain torus there are faster ways.
+PointSet by_darts(const Setting& setting, double coverage, const Arguments& a, Rng& rng, Control& control) {
   DiskRule rule;
   rule.coverage = coverage;
-  const auto r = argument(a, "radius");
-  if (!r) return throw_darts_over_to_count(domain, count_of(a), rule, rng, control);
-  rule.scale = *r;
-  return throw_darts_over(domain, rule, rng, control);
+  rule.sizing = setting.sizing.get();
+  rule.criterion = static_cast<Criterion>(static_cast<int>(argument(a, "criterion").value_or(0)));
+  PointSet points;
+  if (argument(a, "count")) {
+    points = throw_darts_over_to_count(setting.domain, count_of(a), rule, rng, control);
+  } else {
+    rule.scale = argument(a, "radius").value_or(1);
+    points = throw_darts_over(setting.domain, rule, rng, control);
+  }
+  points.sizing = setting.sizing;
+  return points;
 }
 
-double expected_by_darts(const Domain& domain, double coverage, double radius) {
+double expected_by_darts(const Setting& setting, double coverage, const Arguments& a) {
   DiskRule rule;
-  rule.scale = radius * coverage;
-  return expected_points(domain, rule);
+  rule.sizing = setting.sizing.get();
+  rule.scale = argument(a, "radius").value_or(1) * coverage;
+  return expected_points(*setting.domain, rule);
+}
+
+Parameter criterion() {
+  Parameter p;
+  p.name = "criterion";
+  p.type = Parameter::Type::choice;
+  p.description =
+      "With a sizing function: which of two radii counts as the least distance of two points, the smaller or "
+      "the bigger one, that of the point that was there first, or that of the one that comes later";
+  p.choices = {"smaller", "bigger", "prior", "current"};
+  p.maximum = 3;
+  p.fallback = "\"smaller\"";
+  return p;
+}
+
+void require_radius_if_given(const Domain& domain, const Arguments& a) {
+  if (const auto r = argument(a, "radius")) require_radius(domain, *r);
 }
 
 std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
@@ -98,12 +124,11 @@ Parameter even_count() {
   return p;
 }
 
-double counted(const Domain&, const Arguments& a) { return argument(a, "count").value(); }
+double counted(const Setting&, const Arguments& a) { return argument(a, "count").value(); }
 
 template <PointSet (*lattice)(const std::shared_ptr<const Torus>&, std::uint64_t, Control&)>
-PointSet run_lattice(const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng&,
-                     Control& control) {
-  return lattice(torus_of(domain), count_of(a), control);
+PointSet run_lattice(const Setting& setting, const Arguments& a, Rng&, Control& control) {
+  return lattice(torus_of(setting.domain), count_of(a), control);
 }
 
 const std::vector<Generator> generator_rows = {
@@ -111,24 +136,24 @@ const std::vector<Generator> generator_rows = {
       "Maximal Poisson-disk sampling",
       "Random points, none nearer than r to another, and no room for one more: beta <= 1.",
       "Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012",
-      {count(false), radius()}},
+      {count(false), radius(), criterion()}},
      true,
      false,
-     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
-       if (!is_torus(*domain)) return by_darts(domain, 1, a, rng, control);
-       const auto torus = torus_of(domain);
+     true,
+     [](const Setting& setting, const Arguments& a, Rng& rng, Control& control) {
+       if (!is_plain_torus(setting)) return by_darts(setting, 1, a, rng, control);
+       const auto torus = torus_of(setting.domain);
        const auto r = argument(a, "radius");
        return r ? poisson_disk(torus, {*r}, rng, control)
                 : poisson_disk_of_count(torus, count_of(a), rng, control);
      },
-     [](const Domain& domain, const Arguments& a) {
-       const auto r = argument(a, "radius");
-       if (r && !is_torus(domain)) return expected_by_darts(domain, 1, *r);
-       return r ? poisson_disk_count(domain.area(), *r) : argument(a, "count").value();
+     [](const Setting& setting, const Arguments& a) {
+       if (const auto n = argument(a, "count")) return *n;
+       return is_plain_torus(setting)
+                  ? poisson_disk_count(setting.domain->area(), argument(a, "radius").value())
+                  : expected_by_darts(setting, 1, a);
      },
-     [](const Domain& domain, const Arguments& a) {
-       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
-     },
+     require_radius_if_given,
      {5e-6, 180},
      {5e-5, 500}},
     {{"two-radii",
@@ -136,24 +161,23 @@ const std::vector<Generator> generator_rows = {
       "Random points, none nearer than r to another, no place farther than beta r from all: between "
       "poisson-disk and white noise.",
       "Mitchell et al., Variable Radii Poisson Disk Sampling, 2012",
-      {count(false), radius(), coverage_ratio()}},
+      {count(false), radius(), coverage_ratio(), criterion()}},
      true,
      false,
-     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
-       if (!is_torus(*domain)) return by_darts(domain, two_radii_options(a).beta, a, rng, control);
-       const auto torus = torus_of(domain);
+     true,
+     [](const Setting& setting, const Arguments& a, Rng& rng, Control& control) {
+       if (!is_plain_torus(setting)) return by_darts(setting, two_radii_options(a).beta, a, rng, control);
+       const auto torus = torus_of(setting.domain);
        const TwoRadiiOptions options = two_radii_options(a);
        return argument(a, "radius") ? two_radii(torus, options, rng, control)
                                     : two_radii_of_count(torus, count_of(a), options, rng, control);
      },
-     [](const Domain& domain, const Arguments& a) {
-       const auto r = argument(a, "radius");
-       if (r && !is_torus(domain)) return expected_by_darts(domain, std::sqrt(two_radii_options(a).beta), *r);
-       return r ? two_radii_count(domain.area(), two_radii_options(a)) : argument(a, "count").value();
+     [](const Setting& setting, const Arguments& a) {
+       if (const auto n = argument(a, "count")) return *n;
+       return is_plain_torus(setting) ? two_radii_count(setting.domain->area(), two_radii_options(a))
+                                      : expected_by_darts(setting, std::sqrt(two_radii_options(a).beta), a);
      },
-     [](const Domain& domain, const Arguments& a) {
-       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
-     },
+     require_radius_if_given,
      {1e-5, 260},
      {8e-5, 500}},
     {{"white-noise",
@@ -163,8 +187,9 @@ const std::vector<Generator> generator_rows = {
       {count(true)}},
      true,
      false,
-     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
-       return white_noise(domain, count_of(a), rng, control);
+     false,
+     [](const Setting& setting, const Arguments& a, Rng& rng, Control& control) {
+       return white_noise(setting.domain, count_of(a), rng, control);
      },
      counted,
      nullptr,
@@ -177,8 +202,9 @@ const std::vector<Generator> generator_rows = {
       {count(true)}},
      true,
      true,
-     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng& rng, Control& control) {
-       return jittered(torus_of(domain), count_of(a), rng, control);
+     false,
+     [](const Setting& setting, const Arguments& a, Rng& rng, Control& control) {
+       return jittered(torus_of(setting.domain), count_of(a), rng, control);
      },
      counted,
      nullptr,
@@ -193,19 +219,18 @@ const std::vector<Generator> generator_rows = {
       {count(false), radius()}},
      false,
      true,
-     [](const std::shared_ptr<const Domain>& domain, const Arguments& a, Rng&, Control& control) {
-       const auto torus = torus_of(domain);
+     false,
+     [](const Setting& setting, const Arguments& a, Rng&, Control& control) {
+       const auto torus = torus_of(setting.domain);
        const auto r = argument(a, "radius");
        return r ? delaunay_refinement(torus, *r, control)
                 : delaunay_refinement_of_count(torus, count_of(a), control);
      },
-     [](const Domain& domain, const Arguments& a) {
+     [](const Setting& setting, const Arguments& a) {
        const auto r = argument(a, "radius");
-       return r ? delaunay_refinement_count(domain.area(), *r) : argument(a, "count").value();
+       return r ? delaunay_refinement_count(setting.domain->area(), *r) : argument(a, "count").value();
      },
-     [](const Domain& domain, const Arguments& a) {
-       if (const auto r = argument(a, "radius")) require_radius(domain, *r);
-     },
+     require_radius_if_given,
      {1e-5, 200},
      {}},
     {{"triangular",
@@ -216,6 +241,7 @@ const std::vector<Generator> generator_rows = {
       {count(true)}},
      false,
      true,
+     false,
      run_lattice<triangular_lattice>,
      counted,
      nullptr,
@@ -228,6 +254,7 @@ const std::vector<Generator> generator_rows = {
       {count(true)}},
      false,
      true,
+     false,
      run_lattice<square_lattice>,
      counted,
      nullptr,
@@ -240,6 +267,7 @@ const std::vector<Generator> generator_rows = {
       {even_count()}},
      false,
      true,
+     false,
      run_lattice<hexagonal_lattice>,
      counted,
      [](const Domain&, const Arguments& a) { require_even(count_of(a)); },

@@ -71,7 +71,7 @@ std::string range_text(const Parameter& p) {
          (p.exclusive_maximum ? ")" : "]");
 }
 
-Arguments read_arguments(const Method& method, Fields& fields) {
+Arguments read_arguments(const Method& method, Fields& fields, bool sized) {
   // A misspelled name is told as such, not as the absence of the right one.
   for (const Parameter& p : method.parameters) fields.find(p.name);
   fields.refuse_unknown();
@@ -83,7 +83,12 @@ Arguments read_arguments(const Method& method, Fields& fields) {
       throw Error(ErrorCode::invalid_parameters, "the field is missing: " + p.description,
                   fields.pointer_to(p.name));
   }
-  require_one_density(method, arguments, fields);
+  if (!sized)
+    require_one_density(method, arguments, fields);
+  else if (arguments.count("radius") != 0)
+    throw Error(ErrorCode::invalid_parameters,
+                "the sizing function says the radii; leave radius out, or scale them all by a count",
+                fields.pointer_to("radius"));
   return arguments;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/analyze/certificate.h"
+#include "core/analyze/domain_certificate.h"
 #include "core/analyze/spacing.h"
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
@@ -53,12 +54,7 @@ Made make(const PointSource& source, Control& control);
 PointSet generate(const GenerateRequest& request, Control& control) {
   Rng rng(request.seed);
   return at(request.pointer,
-            [&] { return request.method->run(request.domain, request.arguments, rng, control); });
-}
-
-/// Where a request says how many points it wants.
-std::string density_pointer(const GenerateRequest& request) {
-  return request.pointer + (request.arguments.count("radius") != 0 ? "/radius" : "/count");
+            [&] { return request.method->run(setting_of(request), request.arguments, rng, control); });
 }
 
 /// For work that needs three points at least. How many a radius gives is known only now.
@@ -85,6 +81,10 @@ ordered_json parameters_to_json(const Method& method, const Arguments& arguments
   return out;
 }
 
+void add_sizing(ordered_json& summary, const PointSet& points) {
+  if (points.sizing != nullptr) summary["sizing"] = sizing_in_result(*points.sizing);
+}
+
 void add_end(ordered_json& summary, const PointSet& points) {
   summary["version"] = version();
   summary["domain"] = domain_to_json(*points.domain);
@@ -109,6 +109,7 @@ Result run(const GenerateRequest& request, Control& control) {
                           {"method", request.method->name},
                           {"parameters", parameters_to_json(*request.method, request.arguments)}};
   if (request.method->random) summary["seed"] = request.seed;
+  add_sizing(summary, points);
   add_end(summary, points);
   return {"generate", std::move(summary), one_group(std::move(points)), {}};
 }
@@ -134,6 +135,7 @@ OptimizeResult optimize(const OptimizeRequest& request, const PointSet& input, C
 ordered_json converged(const OptimizeResult& result, const Arguments& arguments,
                        const std::optional<Certificate>& proof) {
   if (!result.converged) return {};
+  if (!can_be_certified(result.points)) return *result.converged;
   const auto target = argument(arguments, "beta");
   return *result.converged && (!target || (proof && proof->beta_upper <= *target));
 }
@@ -142,6 +144,7 @@ ordered_json converged(const OptimizeResult& result, const Arguments& arguments,
 std::pair<PointSet, std::size_t> input_of(const OptimizeRequest& request, Control& control) {
   Part first(control, 0, 0.5), second(control, 0.5, 1);
   PointSet points = make(request.points, first).points;
+  if (request.sizing != nullptr) points.sizing = request.sizing;
   return at(request.points.pointer, [&] {
     require_usable(points, control);
     if (!request.enrich) return std::pair(std::move(points), std::size_t{0});
@@ -173,6 +176,7 @@ Made optimize(const OptimizeRequest& request, Control& control) {
   summary.update(certificate_to_json(proof));
   summary["converged"] = converged(optimized, request.arguments, proof);
   summary["history"] = history_to_json(optimized.history);
+  add_sizing(summary, optimized.points);
   add_seed(summary, request.points);
   return {std::move(optimized.points), std::move(summary)};
 }
@@ -195,7 +199,7 @@ Made make(const PointSource& source, Control& control) {
 ordered_json measure(const MeasureCall& call, const SourceGroup& group, std::span<const PointSet> sets,
                      const Control& control) {
   try {
-    return call.measure->run({sets, group.sizing.sizing.get()}, call.arguments, control);
+    return call.measure->run({sets, sets.front().sizing.get()}, call.arguments, control);
   } catch (const Error& error) {
     throw error.within(error.where().empty() ? group.pointer : call.pointer);
   }
@@ -203,7 +207,7 @@ ordered_json measure(const MeasureCall& call, const SourceGroup& group, std::spa
 
 /// The sets of a group, and what each came out of.
 std::pair<ResultGroup, ordered_json> make_group(const SourceGroup& group, Control& control) {
-  ResultGroup made{group.label, {}, group.sizing};
+  ResultGroup made{group.label, {}};
   ordered_json optimized = ordered_json::array();
   const auto count = static_cast<double>(group.sets.size());
   for (const PointSource& source : group.sets) {
@@ -214,6 +218,7 @@ std::pair<ResultGroup, ordered_json> make_group(const SourceGroup& group, Contro
     if (!made.sets.empty())
       require_same_size(static_cast<double>(made.sets.front().size()), static_cast<double>(set.points.size()),
                         source.pointer);
+    if (group.sizing != nullptr) set.points.sizing = group.sizing;
     if (!set.optimized.is_null()) optimized.push_back(std::move(set.optimized));
     made.sets.push_back(std::move(set.points));
   }
@@ -227,10 +232,7 @@ ResultGroup analyze(const AnalyzeRequest& request, const SourceGroup& group, Con
   auto [made, optimized] = make_group(group, first);
   summary["n"] = made.sets.front().size();
   if (made.sets.size() > 1) summary["sets"] = made.sets.size();
-  if (group.sizing.sizing != nullptr) {
-    summary["sizing"] = group.sizing.json;
-    summary["sizing"]["lipschitz"] = group.sizing.sizing->lipschitz();
-  }
+  add_sizing(summary, made.sets.front());
   for (const MeasureCall& call : request.measures)
     summary[call.measure->name] = measure(call, group, made.sets, second);
   if (!optimized.empty()) summary["optimized"] = std::move(optimized);

@@ -20,7 +20,7 @@ constexpr Cost enriching = {8e-6, 300};  // a point that there is in the end
 constexpr double bytes_kept = 16;        // a point that waits for others
 
 double expected(const GenerateRequest& request) {
-  return request.method->expected_count(*request.domain, request.arguments);
+  return request.method->expected_count(setting_of(request), request.arguments);
 }
 
 double expected(const OptimizeRequest& request) {
@@ -31,13 +31,14 @@ double expected(const OptimizeRequest& request) {
 }
 
 Cost cost_of(const GenerateRequest& request) {
-  const bool torus = is_torus(*request.domain);
+  const bool torus = is_torus(*request.domain) && request.sizing == nullptr;
   return times(expected(request), torus ? request.method->cost_a_point : request.method->cost_elsewhere);
 }
 
 Cost cost_of_optimizing(const OptimizeRequest& request) {
   Cost cost = request.method->cost_a_point(request.arguments);
-  if (!is_torus(domain_of(request.points))) cost.seconds *= request.method->times_elsewhere;
+  if (!is_torus(domain_of(request.points)) || is_sized(request))
+    cost.seconds *= request.method->times_elsewhere;
   return cost;
 }
 
@@ -157,6 +158,17 @@ void require_affordable_measures(const AnalyzeRequest& request, const Limits& li
 }
 
 }  // namespace
+
+bool is_sized(const PointSource& source) {
+  if (const auto* generated = std::get_if<GenerateRequest>(&source.from)) return generated->sizing != nullptr;
+  if (const auto* optimized = std::get_if<std::shared_ptr<const OptimizeRequest>>(&source.from))
+    return is_sized(**optimized);
+  return std::get<PointSet>(source.from).sizing != nullptr;
+}
+
+bool is_sized(const OptimizeRequest& request) {
+  return request.sizing != nullptr || is_sized(request.points);
+}
 
 std::string size_field(const Request& request) {
   if (const auto* generate = std::get_if<GenerateRequest>(&request.operation))

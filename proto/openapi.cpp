@@ -202,10 +202,10 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
     for (const Measure& m : measures())
       for (const Parameter& p : m.parameters) add(m.name + "." + p.name, parameter_schema(p));
   }
-  if (operation == "analyze") {
+  if (operation != "generate") {
     add("sizing.type",
         {{"type", "string"}, {"enum", {"constant", "linear"}}, {"description", "of a sizing function"}});
-    add("sizing.axis", {{"type", "string"}, {"enum", {"x", "y"}}, {"description", "of a linear one"}});
+    add("sizing.axis", {{"type", "string"}, {"enum", {"x", "y", "z"}}, {"description", "of a linear one"}});
     for (const char* name : {"sizing.radius", "sizing.from", "sizing.to"})
       add(name, {{"type", "number"}, {"description", "a radius of the sizing function"}});
   }

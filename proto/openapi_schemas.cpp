@@ -146,6 +146,10 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
     if (p.density) densities.push_back({{"required", {p.name}}});
   }
   for (auto& [name, schema] : common.items()) properties[name] = schema;
+  if (!densities.empty() && common.contains("sizing")) {
+    const ordered_json either = densities;
+    densities.push_back({{"required", {"sizing"}}, {"not", {{"anyOf", either}}}});
+  }
   ordered_json schema = closed(object(std::move(properties), std::move(required)));
   schema["title"] = method.title;
   schema["description"] = method.description;
@@ -153,13 +157,21 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
   return schema;
 }
 
+/// Without what the method doesn't take.
+ordered_json common_of(const Generator& row, ordered_json common) {
+  if (!row.takes_sizing) common.erase("sizing");
+  return common;
+}
+
+ordered_json common_of(const Optimizer&, const ordered_json& common) { return common; }
+
 /// One schema a method and their union.
 template <class Row>
 void add_methods(ordered_json& schemas, const std::string& prefix, std::span<const Row> rows,
                  const ordered_json& common) {
   ordered_json choices = ordered_json::array();
   for (const Row& row : rows) {
-    schemas[prefix + camel(row.name)] = method_schema(row, rows.front().name, common);
+    schemas[prefix + camel(row.name)] = method_schema(row, rows.front().name, common_of(row, common));
     choices.push_back(schema_reference(prefix + camel(row.name)));
   }
   schemas[prefix] = {{"oneOf", choices}};
@@ -169,8 +181,10 @@ ordered_json source_schema() {
   const auto only = [](const char* name, ordered_json schema) {
     return closed(object({{name, std::move(schema)}}, {name}));
   };
-  ordered_json inline_set = closed(
-      object({{"points", schema_reference("Points")}, {"domain", schema_reference("Domain")}}, {"points"}));
+  ordered_json inline_set = closed(object({{"points", schema_reference("Points")},
+                                           {"domain", schema_reference("Domain")},
+                                           {"sizing", schema_reference("Sizing")}},
+                                          {"points"}));
   return {{"description", "Points in place, generated or optimized here, or of an earlier job."},
           {"oneOf",
            {schema_reference("Points"), inline_set, only("generate", schema_reference("PointsToGenerate")),
@@ -182,6 +196,7 @@ ordered_json common_result() {
   return {{"n", typed("integer", "number of points")},
           {"version", typed("string", "of the service that computed this")},
           {"domain", schema_reference("Domain")},
+          {"sizing", typed("object", "the sizing function, where there is one, with its Lipschitz constant")},
           {"seed", typed("integer", "of the generator, where there was one")}};
 }
 
@@ -218,7 +233,6 @@ void add_results(ordered_json& schemas) {
 ordered_json group_result() {
   ordered_json group = common_result();
   group["sets"] = typed("integer", "number of point sets, where they are several");
-  group["sizing"] = typed("object", "as asked for, with its Lipschitz constant");
   group["seed"] = typed("integer", "of the first set, where they were generated");
   group["optimized"] = {{"type", "array"},
                         {"description", "what the optimizer said of each set that came out of one"},
@@ -357,7 +371,8 @@ ordered_json openapi_schemas() {
   schemas["Sizing"] = sizing_schema();
   const ordered_json seed = {
       {"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
-  const ordered_json made = {{"domain", schema_reference("Domain")}, {"seed", seed}};
+  const ordered_json made = {
+      {"domain", schema_reference("Domain")}, {"sizing", schema_reference("Sizing")}, {"seed", seed}};
   ordered_json asked = made;
   asked["picture"] = schema_reference("Picture");
   add_methods(schemas, "PointsToGenerate", generators(), made);
@@ -365,6 +380,7 @@ ordered_json openapi_schemas() {
   schemas["PointSource"] = source_schema();
   const ordered_json worked_on = {{"points", schema_reference("PointSource")},
                                   {"domain", schema_reference("Domain")},
+                                  {"sizing", schema_reference("Sizing")},
                                   {"enrich", enrich_schema()}};
   add_methods(schemas, "PointsToOptimize", optimizers(), worked_on);
   ordered_json optimize = worked_on;

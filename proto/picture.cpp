@@ -229,7 +229,8 @@ Drawing draw_result(const Result& result, const PictureCall& call, const Limits&
   std::vector<PictureGroup> groups;
   Subject subject;
   for (const ResultGroup& group : result.groups) {
-    groups.push_back({group.label, group.sets, history_of(result, groups.size()), group.sizing.sizing.get()});
+    groups.push_back(
+        {group.label, group.sets, history_of(result, groups.size()), group.sets.front().sizing.get()});
     subject.begin_group();
     for (const PointSet& set : group.sets) subject.add(static_cast<double>(set.size()), *set.domain);
     require_history(!groups.back().history.empty(), *call.picture);

@@ -21,8 +21,19 @@ struct GenerateRequest {
   const Generator* method = nullptr;
   Arguments arguments;
   std::uint64_t seed = 0;
-  std::string pointer;  ///< where it stands in its request: "" or "/points/generate"
+  std::shared_ptr<const Sizing> sizing;  ///< none: the same radius everywhere
+  std::string pointer;                   ///< where it stands in its request: "" or "/points/generate"
 };
+
+inline Setting setting_of(const GenerateRequest& request) { return {request.domain, request.sizing}; }
+
+/// Where a request says how many points it wants.
+inline std::string density_pointer(const GenerateRequest& request) {
+  const char* said = request.arguments.count("count") != 0 ? "/count"
+                     : request.sizing != nullptr           ? "/sizing"
+                                                           : "/radius";
+  return request.pointer + said;
+}
 
 struct OptimizeRequest;
 
@@ -36,16 +47,17 @@ struct OptimizeRequest {
   PointSource points;
   const Optimizer* method = nullptr;
   Arguments arguments;
-  bool enrich = false;  ///< fill the holes of the points first
-  std::string pointer;  ///< where it stands in its request: "" or "/points/optimize"
+  bool enrich = false;                   ///< fill the holes of the points first
+  std::shared_ptr<const Sizing> sizing;  ///< instead of what the points were made for; none: that
+  std::string pointer;                   ///< where it stands in its request: "" or "/points/optimize"
 };
 
 /// Point sets of one process, of one size and on one domain, over which measures are averaged.
 struct SourceGroup {
   std::string label;  ///< for pictures; may be empty
   std::vector<PointSource> sets;
-  std::string pointer;  ///< where they stand in their request: "/points", "/sets"
-  SizingChoice sizing;  ///< that they were made for, if it was told
+  std::string pointer;                   ///< where they stand in their request: "/points", "/sets"
+  std::shared_ptr<const Sizing> sizing;  ///< that they were made for, if it was told
 };
 
 struct MeasureCall {
@@ -82,6 +94,10 @@ double expected_points(const PointSource& source);
 
 /// Where the points of a source will live.
 const Domain& domain_of(const PointSource& source);
+
+/// Whether points are wanted denser in some places than in others. Not told of jobs' points alone.
+bool is_sized(const PointSource& source);
+bool is_sized(const OptimizeRequest& request);
 
 /// The most it will take, about. Errors of require_affordable: too_large if that is above
 /// limits.memory_bytes.

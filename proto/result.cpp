@@ -74,9 +74,10 @@ Result load(const ordered_json& head, std::string_view data) {
   Result result{head.at("operation"), head.at("summary"), {}, head.at("picture")};
   for (const ordered_json& group : groups_of(head, data)) {
     const auto domain = read_domain(nlohmann::json(group.at("domain")), "");
-    result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data), {}});
-    if (group.contains("sizing") && !group["sizing"].is_null())
-      result.groups.back().sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
+    result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data)});
+    if (!group.contains("sizing") || group["sizing"].is_null()) continue;
+    const auto sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
+    for (PointSet& set : result.groups.back().sets) set.sizing = sizing;
   }
   if (result.groups.empty() || !data.empty()) throw unreadable();
   return result;
@@ -126,7 +127,7 @@ std::string store_result(const Result& result) {
     head["groups"].push_back({{"label", group.label},
                               {"domain", domain_to_json(*group.sets.front().domain)},
                               {"sizes", std::move(sizes)},
-                              {"sizing", group.sizing.json}});
+                              {"sizing", sizing_to_json(group.sets.front().sizing.get())}});
   }
   std::string bytes = dump(head) + "\n";
   bytes.reserve(bytes.size() + numbers * sizeof(double));

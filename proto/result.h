@@ -19,8 +19,7 @@ namespace wellspaced {
 /// Point sets that were averaged over, or a single one.
 struct ResultGroup {
   std::string label;           ///< for pictures; may be empty
-  std::vector<PointSet> sets;  ///< at least one, on one domain
-  SizingChoice sizing = {};    ///< that they were made for, if it was told
+  std::vector<PointSet> sets;  ///< at least one, on one domain and with one sizing function or none
 };
 
 /// What an operation gives: a summary, and the points that it made or looked at.

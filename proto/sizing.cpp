@@ -14,26 +14,32 @@ double radius_field(Fields& fields, const char* name) {
   return *fields.number(name);
 }
 
-SizingChoice constant(Fields& fields) {
+std::shared_ptr<const Sizing> constant(Fields& fields) {
   const double radius = radius_field(fields, "radius");
   fields.refuse_unknown();
-  return {{{"type", "constant"}, {"radius", radius}}, std::make_shared<ConstantSizing>(radius)};
+  return std::make_shared<ConstantSizing>(radius);
 }
 
-SizingChoice linear(Fields& fields, const Domain& domain) {
-  const std::string axis = fields.text("axis").value_or("x");
-  if (axis != "x" && axis != "y")
-    throw Error(ErrorCode::invalid_parameters, "must be x or y", fields.pointer_to("axis"));
-  const LinearSizingOptions options{axis == "y" ? 1 : 0, radius_field(fields, "from"),
+constexpr const char* axes[] = {"x", "y", "z"};
+
+int axis_field(Fields& fields, const Domain& domain) {
+  const std::string name = fields.text("axis").value_or("x");
+  for (int axis = 0; axis < domain.dimension(); ++axis)
+    if (name == axes[axis]) return axis;
+  throw Error(ErrorCode::invalid_parameters, domain.dimension() == 3 ? "must be x, y or z" : "must be x or y",
+              fields.pointer_to("axis"));
+}
+
+std::shared_ptr<const Sizing> linear(Fields& fields, const Domain& domain) {
+  const LinearSizingOptions options{axis_field(fields, domain), radius_field(fields, "from"),
                                     radius_field(fields, "to")};
   fields.refuse_unknown();
-  return {{{"type", "linear"}, {"axis", axis}, {"from", options.from}, {"to", options.to}},
-          std::make_shared<LinearSizing>(domain, options)};
+  return std::make_shared<LinearSizing>(domain, options);
 }
 
 }  // namespace
 
-SizingChoice read_sizing(const json& value, const Domain& domain, const std::string& where) {
+std::shared_ptr<const Sizing> read_sizing(const json& value, const Domain& domain, const std::string& where) {
   Fields fields(value, where);
   fields.require("type", "constant or linear");
   const std::string type = *fields.text("type");
@@ -48,6 +54,21 @@ SizingChoice read_sizing(const json& value, const Domain& domain, const std::str
               fields.pointer_to("type"));
 }
 
+ordered_json sizing_to_json(const Sizing* sizing) {
+  if (sizing == nullptr) return nullptr;
+  if (const auto* linear = dynamic_cast<const LinearSizing*>(sizing)) {
+    const LinearSizingOptions& o = linear->options();
+    return {{"type", "linear"}, {"axis", axes[o.axis]}, {"from", o.from}, {"to", o.to}};
+  }
+  return {{"type", sizing->type()}, {"radius", sizing->least()}};
+}
+
+ordered_json sizing_in_result(const Sizing& sizing) {
+  ordered_json json = sizing_to_json(&sizing);
+  json["lipschitz"] = sizing.lipschitz();
+  return json;
+}
+
 ordered_json sizing_schema() {
   const ordered_json radius = {{"type", "number"}, {"exclusiveMinimum", 0}};
   const auto variant = [](const char* type, ordered_json properties, ordered_json required) {
@@ -58,14 +79,16 @@ ordered_json sizing_schema() {
                         {"required", std::move(required)},
                         {"additionalProperties", false}};
   };
-  ordered_json axis = {{"type", "string"}, {"enum", {"x", "y"}}, {"default", "x"}};
-  return {
-      {"description",
-       "r(x), the radius that the points were made for where they are denser in some places; only its ratios "
-       "count. linear: from one side of the domain to the other along an axis."},
-      {"oneOf",
-       {variant("constant", {{"radius", radius}}, {"radius"}),
-        variant("linear", {{"axis", axis}, {"from", radius}, {"to", radius}}, {"from", "to"})}}};
+  ordered_json axis = {{"type", "string"}, {"enum", {"x", "y", "z"}}, {"default", "x"}};
+  return {{"description",
+           "r(x), the radius that is wanted, or that the points were made for, where they are denser in some "
+           "places: "
+           "lengths are in units of it. linear: from one side of the domain's box to the other along an "
+           "axis, z on a "
+           "sphere only."},
+          {"oneOf",
+           {variant("constant", {{"radius", radius}}, {"radius"}),
+            variant("linear", {{"axis", axis}, {"from", radius}, {"to", radius}}, {"from", "to"})}}};
 }
 
 }  // namespace wellspaced

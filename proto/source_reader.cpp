@@ -20,6 +20,11 @@ std::shared_ptr<const Domain> domain_field(Fields& fields) {
   return value != nullptr ? read_domain(*value, fields.pointer_to("domain")) : nullptr;
 }
 
+std::shared_ptr<const Sizing> sizing_field(Fields& fields, const Domain& domain) {
+  const json* value = fields.find("sizing");
+  return value != nullptr ? read_sizing(*value, domain, fields.pointer_to("sizing")) : nullptr;
+}
+
 std::shared_ptr<const Domain> or_unit_torus(std::shared_ptr<const Domain> domain) {
   return domain != nullptr ? std::move(domain) : std::make_shared<Torus>();
 }
@@ -36,6 +41,10 @@ void require_enrichable(const OptimizeRequest& request, std::uint64_t limit) {
   if (const Domain& domain = domain_of(request.points); !is_torus(domain))
     throw Error(ErrorCode::invalid_parameters,
                 "holes are filled on a torus only; leave enrich out on a " + std::string(domain.type()),
+                request.pointer + "/enrich");
+  if (is_sized(request))
+    throw Error(ErrorCode::invalid_parameters,
+                "holes are filled without a sizing function only; leave enrich out",
                 request.pointer + "/enrich");
   const double most = expected_points({std::make_shared<OptimizeRequest>(request), ""});
   if (most <= static_cast<double>(limit)) return;
@@ -95,9 +104,14 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
                     std::string(request.domain->type()),
                 fields.pointer_to("method"));
   request.seed = fields.whole("seed").value_or(0);
-  request.arguments = read_arguments(*request.method, fields);
-  const std::string density = fields.pointer_to(request.arguments.count("count") != 0 ? "count" : "radius");
-  require_count(request.method->expected_count(*request.domain, request.arguments), most_points_, density);
+  request.sizing = sizing_field(fields, *request.domain);
+  if (request.sizing != nullptr && !request.method->takes_sizing)
+    throw Error(ErrorCode::invalid_parameters,
+                request.method->name + " takes no sizing function; ask for poisson-disk or two-radii",
+                fields.pointer_to("sizing"));
+  request.arguments = read_arguments(*request.method, fields, request.sizing != nullptr);
+  require_count(request.method->expected_count(setting_of(request), request.arguments), most_points_,
+                density_pointer(request));
   try {
     if (request.method->check != nullptr) request.method->check(*request.domain, request.arguments);
   } catch (const Error& error) {
@@ -114,9 +128,11 @@ OptimizeRequest SourceReader::optimize(Fields& fields) {
                              fields.pointer_to("method"));
   fields.find("points");
   fields.find("domain");
+  fields.find("sizing");
   request.enrich = fields.flag("enrich").value_or(false);
   request.arguments = read_arguments(*request.method, fields);
   request.points = points(fields);
+  request.sizing = sizing_field(fields, domain_of(request.points));
   if (request.enrich) require_enrichable(request, most_points_);
   return request;
 }
@@ -170,8 +186,11 @@ PointSource SourceReader::object(const json& value, const std::string& pointer) 
     throw Error(ErrorCode::invalid_parameters, "expected an array of points, found " + describe(*points),
                 fields.pointer_to("points"));
   std::shared_ptr<const Domain> domain = or_unit_torus(domain_field(fields));
+  std::shared_ptr<const Sizing> sizing = sizing_field(fields, *domain);
   fields.refuse_unknown();
-  return {inline_points(std::move(domain), fields.pointer_to("points")), pointer};
+  PointSet set = inline_points(std::move(domain), fields.pointer_to("points"));
+  set.sizing = std::move(sizing);
+  return {std::move(set), pointer};
 }
 
 PointSource SourceReader::source(const json& value, const std::string& pointer,
@@ -195,8 +214,7 @@ PointSource SourceReader::points(Fields& fields) {
 
 SourceGroup SourceReader::group(Fields& fields) {
   SourceGroup group = sets(fields);
-  if (const json* sizing = fields.find("sizing"))
-    group.sizing = read_sizing(*sizing, domain_of(group.sets.front()), fields.pointer_to("sizing"));
+  group.sizing = sizing_field(fields, domain_of(group.sets.front()));
   return group;
 }
 

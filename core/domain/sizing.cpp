@@ -18,17 +18,20 @@ void require_radius(double radius, const char* where) {
 ConstantSizing::ConstantSizing(double radius) : radius_(radius) { require_radius(radius, "/radius"); }
 
 LinearSizing::LinearSizing(const Domain& domain, const LinearSizingOptions& options) : options_(options) {
-  if (options.axis != 0 && options.axis != 1)
-    throw Error(ErrorCode::invalid_parameters, "the axis must be 0 (x) or 1 (y)", "/axis");
+  if (options.axis < 0 || options.axis >= domain.dimension())
+    throw Error(ErrorCode::invalid_parameters,
+                domain.dimension() == 3 ? "the axis must be 0 (x), 1 (y) or 2 (z)"
+                                        : "the axis must be 0 (x) or 1 (y)",
+                "/axis");
   require_radius(options.from, "/from");
   require_radius(options.to, "/to");
   const Box box = domain.box();
-  low_ = options.axis == 0 ? box.low.x : box.low.y;
-  size_ = options.axis == 0 ? box.size.x : box.size.y;
+  low_ = along(box.low);
+  size_ = along(box.size);
 }
 
 double LinearSizing::at(Vec3 p) const {
-  const double part = ((options_.axis == 0 ? p.x : p.y) - low_) / size_;
+  const double part = (along(p) - low_) / size_;
   const auto [least, most] = std::minmax(options_.from, options_.to);
   return std::clamp(options_.from + (options_.to - options_.from) * part, least, most);
 }

@@ -45,7 +45,7 @@ class ConstantSizing final : public Sizing {
 
 /// What r is linear along, and its values at both ends of the domain's box.
 struct LinearSizingOptions {
-  int axis = 0;  ///< 0: x, 1: y
+  int axis = 0;  ///< 0: x, 1: y, 2: z
   double from = 0, to = 0;
 };
 
@@ -53,20 +53,23 @@ struct LinearSizingOptions {
 /// between the two whatever rounding does.
 ///
 /// On a domain that is periodic along the axis r jumps from `to` back to `from` at the seam: lipschitz() is
-/// that of the inside. Errors of the constructor: invalid_parameters at /axis for another axis than 0 or 1,
-/// at /from and /to for radii that are not positive and finite. Requires: the box has an extent along the
-/// axis.
+/// that of the inside. Errors of the constructor: invalid_parameters at /axis for an axis that points of the
+/// domain don't have, at /from and /to for radii that are not positive and finite. Requires: the box has an
+/// extent along the axis.
 class LinearSizing final : public Sizing {
  public:
   LinearSizing(const Domain& domain, const LinearSizingOptions& options);
 
   std::string_view type() const override { return "linear"; }
+  const LinearSizingOptions& options() const { return options_; }
   double at(Vec3 p) const override;
   double least() const override { return std::min(options_.from, options_.to); }
   double most() const override { return std::max(options_.from, options_.to); }
   double lipschitz() const override;
 
  private:
+  double along(Vec3 v) const { return options_.axis == 0 ? v.x : options_.axis == 1 ? v.y : v.z; }
+
   LinearSizingOptions options_;
   double low_ = 0, size_ = 1;  ///< of the box along the axis
 };

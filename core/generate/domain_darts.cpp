@@ -21,6 +21,28 @@ struct Interval {
   double begin, end;
 };
 
+/// About how many points a scale s gives: inside / s^2 + rim / s.
+struct CountFormula {
+  double inside, rim;
+};
+
+/// n = C integral of r^-2 over the domain, and D of r^-1 over the boundary, which has half a cell inside.
+CountFormula count_formula(const Domain& domain, const DiskRule& rule) {
+  constexpr double on_rim = 0.39;
+  constexpr int draws = 4096;
+  double inverse = 1, inverse2 = 1;  // means of 1 / r and of its square at scale 1
+  if (rule.sizing != nullptr) {
+    Rng rng(0x5ca1e);
+    inverse = inverse2 = 0;
+    for (int k = 0; k < draws; ++k) {
+      const double r = rule.sizing->at(domain.random_point(rng));
+      inverse += 1 / r / draws;
+      inverse2 += 1 / (r * r) / draws;
+    }
+  }
+  return {poisson_disk_constant * domain.area() * inverse2, on_rim * domain.boundary_length() * inverse};
+}
+
 class DomainDarts {
  public:
   DomainDarts(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng, Control& control)
@@ -244,10 +266,8 @@ class DomainDarts {
 }  // namespace
 
 double expected_points(const Domain& domain, const DiskRule& rule) {
-  constexpr double on_rim = 0.39;  // a point on the boundary has half a cell inside
-  const double r = rule.sizing == nullptr ? rule.scale : std::sqrt(rule.least() * rule.most());
-  return std::max(16.0,
-                  poisson_disk_constant * domain.area() / (r * r) + on_rim * domain.boundary_length() / r);
+  const CountFormula n = count_formula(domain, rule);
+  return std::max(16.0, (n.inside / rule.scale + n.rim) / rule.scale);
 }
 
 PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng,
@@ -259,22 +279,10 @@ PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const Dis
 
 namespace {
 
-/// The scale that gives about `count` points: n = (C integral of r^-2 + D L / r) at scale 1, over its powers.
+/// The scale that gives about `count` points.
 double scale_for(const Domain& domain, const DiskRule& rule, double count) {
-  constexpr double on_rim = 0.39;
-  constexpr int draws = 4096;
-  double inverse = 1, inverse2 = 1;  // means of 1 / r and of its square
-  if (rule.sizing != nullptr) {
-    Rng rng(0x5ca1e);
-    inverse = inverse2 = 0;
-    for (int k = 0; k < draws; ++k) {
-      const double r = rule.sizing->at(domain.random_point(rng));
-      inverse += 1 / r / draws;
-      inverse2 += 1 / (r * r) / draws;
-    }
-  }
-  const double a = poisson_disk_constant * domain.area() * inverse2 / (rule.coverage * rule.coverage);
-  const double b = on_rim * domain.boundary_length() * inverse / rule.coverage;
+  const CountFormula n = count_formula(domain, rule);
+  const double a = n.inside / (rule.coverage * rule.coverage), b = n.rim / rule.coverage;
   return (b + std::sqrt(b * b + 4 * a * count)) / (2 * count);
 }
 

@@ -107,5 +107,43 @@ TEST(Domains, AreRefusedWhereTheyCannotBe) {
   });
 }
 
+TEST(Sizing, SaysHowDensePointsAreMadeAndOptimized) {
+  const std::string sizing = R"({"type":"linear","axis":"z","from":0.2,"to":0.05})";
+  const std::string generate =
+      R"({"domain":{"type":"sphere"},"sizing":)" + sizing + R"(,"count":400,"seed":1})";
+  const Result made = run("generate", generate);
+  EXPECT_EQ(made.points().size(), 400u);
+  EXPECT_NEAR(made.summary["sizing"]["lipschitz"], 0.075, 1e-15);
+  int above = 0;
+  for (std::size_t i = 0; i < made.points().size(); ++i) above += made.points()[i].z > 0 ? 1 : 0;
+  EXPECT_GT(above, 280);  // the integral of r^-2 is four times as large there
+  const Result optimized = run("optimize", R"({"points":{"generate":)" + generate + R"(},"beta":0.85})");
+  EXPECT_EQ(optimized.summary["converged"], true);
+  EXPECT_LE(optimized.summary["beta"], 0.85);
+  EXPECT_TRUE(optimized.summary["beta_upper"].is_null());
+  const std::string bytes = store_result(optimized);
+  EXPECT_EQ(store_result(load_result(bytes)), bytes);
+}
+
+TEST(Sizing, AloneSaysTheRadii) {
+  const Result made =
+      run("generate", R"({"sizing":{"type":"constant","radius":0.05},"domain":{"type":"box"}})");
+  EXPECT_GE(measure_spacing(made.points(), Control()).r_f, 1);  // in units of r
+  EXPECT_NEAR(static_cast<double>(made.points().size()), 310, 40);
+}
+
+TEST(Sizing, IsRefusedWhereItCannotBe) {
+  const std::string sizing = R"("sizing":{"type":"constant","radius":0.1})";
+  expect_refusals({
+      {"generate", R"({"method":"white-noise","count":9,)" + sizing + "}", invalid, "/sizing",
+       "takes no sizing"},
+      {"generate", R"({"radius":0.1,)" + sizing + "}", invalid, "/radius", "leave radius out"},
+      {"generate", R"({"sizing":{"type":"linear","axis":"z","from":1,"to":2},"count":9})", invalid,
+       "/sizing/axis", "x or y"},
+      {"optimize", R"({"points":{"generate":{"count":9}},"enrich":true,)" + sizing + "}", invalid, "/enrich",
+       "without a sizing function"},
+  });
+}
+
 }  // namespace
 }  // namespace wellspaced

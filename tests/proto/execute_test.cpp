@@ -389,7 +389,7 @@ TEST(Execute, TakesASizingFunction) {
   EXPECT_EQ(same.summary["differential"], plain.summary["differential"]);
   EXPECT_NE(linear.summary["differential"], plain.summary["differential"]);
   EXPECT_NEAR(linear.summary["sizing"]["lipschitz"], 0.1, 1e-15);
-  EXPECT_EQ(linear.groups[0].sizing.sizing->at({0.5, 0.5, 0}), 0.15000000000000002);
+  EXPECT_EQ(linear.groups[0].sets[0].sizing->at({0.5, 0.5, 0}), 0.15000000000000002);
 }
 
 TEST(Execute, MeasuresEachPoint) {
