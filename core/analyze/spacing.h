@@ -36,9 +36,10 @@ struct LocalSpacing {
 
 /// Measures a point set on any domain.
 ///
-/// On domains with a boundary cells end there; triangles are those of the Delaunay triangulation inside.
-/// Where the set has a sizing function, r_f, r_c and r_f_free are in units of r(x), taken at the sample (for
-/// a distance: the smaller one), and all else in the units of MovingSet instead of d_hex.
+/// On domains with a boundary cells end there; neighbors, and with them valences, angles and edges, are
+/// points whose cells touch inside the domain, which at the boundary may be fewer than the Delaunay
+/// neighbors. Where the set has a sizing function, r_f, r_c and r_f_free are in units of r(x), taken at the
+/// sample (for a distance: the smaller one), and all else in the units of MovingSet instead of d_hex.
 ///
 /// Guarantees
 /// 1. r_f, r_c, beta and each beta_i are those of the exact Delaunay triangulation of the points up to 1e-12

@@ -60,7 +60,7 @@ void HoleFiller::look(std::uint32_t i, double deeper_than) {
       const Vec3 place = on_rim.value_or(at);
       const double depth = distance / rule_.distance(rule_.radius(place), r);
       if (depth <= deeper_than) continue;
-      heap_.push_back({depth, place, i});
+      heap_.push_back({depth, place});
       std::push_heap(heap_.begin(), heap_.end(), ComesLater());
     }
   }

@@ -32,7 +32,6 @@ class HoleFiller {
   struct Hole {
     double depth;
     Vec3 at;
-    std::uint32_t seen_from;
   };
   struct ComesLater {
     bool operator()(const Hole& a, const Hole& b) const;
