@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/parallel.h"
 #include "core/voronoi/star_cell.h"
 
 namespace wellspaced {
@@ -106,20 +105,6 @@ double mean_inside(const MovingSet& set, const std::vector<double>& areas) {
   return count > 0 ? sum / count : 1;
 }
 
-/// Calls use(i, cells) with each point's cell at hand.
-template <class Use>
-void for_each_cell(const MovingSet& set, const Control& control, const Use& use) {
-  constexpr std::size_t block = 256;
-  parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder cells = set.finder(control);
-    for (std::size_t i = begin; i < end; ++i) {
-      cells.load(static_cast<std::uint32_t>(i), set.reach(i));
-      cells.cell_at({});
-      use(i, cells);
-    }
-  });
-}
-
 double area_in_units(const MovingSet& set, std::size_t i, CellFinder& cells) {
   return cells.moments().area / (set.unit(i) * set.unit(i));
 }
@@ -128,7 +113,7 @@ double area_in_units(const MovingSet& set, std::size_t i, CellFinder& cells) {
 /// them.
 std::vector<double> pulls_of(const MovingSet& set, double most, const Control& control) {
   std::vector<double> areas(set.size()), pulls(set.size());
-  for_each_cell(set, control, [&](std::size_t i, CellFinder& cells) {
+  set.for_each_cell(control, [&](std::size_t i, CellFinder& cells) {
     areas[i] = area_in_units(set, i, cells);
     for (const CellSide& side : sides_of(set, i, cells)) pulls[i] += side.length * side.length;
   });
@@ -145,8 +130,8 @@ std::vector<double> pulls_of(const MovingSet& set, double most, const Control& c
 
 std::vector<double> area_deviations(const MovingSet& set, const Control& control) {
   std::vector<double> areas(set.size());
-  for_each_cell(set, control,
-                [&](std::size_t i, CellFinder& cells) { areas[i] = area_in_units(set, i, cells); });
+  set.for_each_cell(control,
+                    [&](std::size_t i, CellFinder& cells) { areas[i] = area_in_units(set, i, cells); });
   const double mean = mean_inside(set, areas);
   for (std::size_t i = 0; i < set.size(); ++i)
     areas[i] = set.freedom(i).dimensions == 2 ? areas[i] / mean - 1 : 0;
@@ -156,7 +141,7 @@ std::vector<double> area_deviations(const MovingSet& set, const Control& control
 std::size_t capacity_sweep(MovingSet& set, double most, const Control& control) {
   const std::vector<double> pulls = pulls_of(set, most, control);
   std::vector<Vec2> moves(set.size());
-  for_each_cell(set, control, [&](std::size_t j, CellFinder& cells) {
+  set.for_each_cell(control, [&](std::size_t j, CellFinder& cells) {
     for (const CellSide& side : sides_of(set, j, cells))
       moves[j] = moves[j] + (pulls[side.neighbor] * side.length / norm(side.way)) * side.way;
   });

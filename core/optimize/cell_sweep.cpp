@@ -66,8 +66,7 @@ class Sweeper {
 
   /// What the point's cell and neighbors say: spokes_, violates_, involved_, move_ (in its units).
   void look(std::size_t i) {
-    finder_.load(static_cast<std::uint32_t>(i), set_.reach(i));
-    finder_.cell_at({});
+    set_.find_cell(i, finder_);
     violates_ = false;
     move_ = {};
     involved_.clear();

@@ -10,7 +10,6 @@
 #include "core/optimize/lbfgs.h"
 #include "core/optimize/move_all.h"
 #include "core/optimize/require.h"
-#include "core/parallel.h"
 #include "core/voronoi/moving_set.h"
 #include "core/voronoi/star_cell.h"
 #include "core/voronoi/star_mesh.h"
@@ -26,22 +25,17 @@ struct Cells {
   MeshRadii radii;
 
   void evaluate(const MovingSet& set, const Control& control) {
-    constexpr std::size_t block = 256;
     to_centroid.resize(set.size());
     area.resize(set.size());
     std::vector<MovingSet::CellIntegrals> all(set.size());
-    parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
-      CellFinder cells = set.finder(control);
-      for (std::size_t i = begin; i < end; ++i) all[i] = set.integrals(i, cells);
-    });
+    set.for_each_cell(control, [&](std::size_t i, CellFinder& cells) { all[i] = set.integrals(i, cells); });
     energy = 0;
-    radii = {std::numeric_limits<double>::infinity(), 0};
+    radii = no_radii;
     for (std::size_t i = 0; i < set.size(); ++i) {
       to_centroid[i] = set.free_part(i, all[i].to_centroid);
       area[i] = all[i].mass;
       energy += all[i].energy;
-      radii = {std::min(radii.shortest, all[i].radii.shortest),
-               std::max(radii.outermost, all[i].radii.outermost)};
+      radii.include(all[i].radii);
     }
   }
 

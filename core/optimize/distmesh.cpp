@@ -6,7 +6,6 @@
 #include "core/optimize/best_state.h"
 #include "core/optimize/move_all.h"
 #include "core/optimize/require.h"
-#include "core/parallel.h"
 
 namespace wellspaced {
 namespace {
@@ -29,29 +28,17 @@ struct MeshSpokes {
 /// Of a MovingSet they are those that cells share.
 class CellSpokes {
  public:
-  CellSpokes(const MovingSet& set, const Control& control) : first_(set.size() + 1, 0) {
-    constexpr std::size_t block = 256;
-    std::vector<std::vector<Vec2>> parts((set.size() + block - 1) / block);
-    parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
-      CellFinder cells = set.finder(control);
-      for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t before = parts[begin / block].size();
-        set.collect_spokes(i, cells, parts[begin / block]);
-        first_[i + 1] = parts[begin / block].size() - before;
-      }
-    });
-    for (std::size_t i = 0; i < set.size(); ++i) first_[i + 1] += first_[i];
-    for (const std::vector<Vec2>& part : parts) ways_.insert(ways_.end(), part.begin(), part.end());
+  CellSpokes(const MovingSet& set, const Control& control) : ways_(set.size()) {
+    set.for_each_cell(control, [&](std::size_t i, CellFinder& cells) { ways_[i] = set.spokes(i, cells); });
   }
 
   template <class Use>
   void operator()(std::size_t i, const Use& use) const {
-    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) use(ways_[k]);
+    for (const Vec2 way : ways_[i]) use(way);
   }
 
  private:
-  std::vector<std::size_t> first_;
-  std::vector<Vec2> ways_;
+  std::vector<std::vector<Vec2>> ways_;
 };
 
 template <class Spokes>

@@ -148,10 +148,7 @@ class FarthestPlaces {
     Vec2 way;  // there, in the frame of the point that sees it
   };
 
-  void load(std::size_t i) {
-    finder_.load(static_cast<std::uint32_t>(i), set_.reach(i));
-    finder_.cell_at({});
-  }
+  void load(std::size_t i) { set_.find_cell(i, finder_); }
 
   /// The deepest corner inside the domain of point i's cell.
   Hole look(std::size_t i) {

@@ -13,8 +13,6 @@
 namespace wellspaced {
 namespace {
 
-constexpr std::size_t block = 256;
-
 /// A grid cell is as wide as the spacing; white noise puts a dozen points in the fullest.
 void require_local(const NeighborGrid& grid) {
   constexpr std::size_t most = 512;
@@ -42,20 +40,11 @@ MovingSet::MovingSet(const PointSet& points, const Control& control)
 /// n = sum over all cells of 2 A_i / (sqrt(3) u_i^2), and half the boundary's length in units, u_i = c r_i.
 void MovingSet::set_units(const Control& control) {
   spacing_ = hexagonal_spacing(domain(), size());
-  if (points_.sizing == nullptr) {
-    std::fill(units_.begin(), units_.end(), spacing_);
-    return;
-  }
+  std::fill(units_.begin(), units_.end(), spacing_);
+  if (points_.sizing == nullptr) return;
   const std::vector<double> radii = radii_of(points_, points_.sizing.get());
   std::vector<double> areas(size());
-  parallel_blocks(size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder cells = finder(control);
-    for (std::size_t i = begin; i < end; ++i) {
-      cells.load(static_cast<std::uint32_t>(i), 2.3 * spacing_);
-      cells.cell_at({});
-      areas[i] = cells.moments().area;
-    }
-  });
+  for_each_cell(control, [&](std::size_t i, CellFinder& cells) { areas[i] = cells.moments().area; });
   double inside = 0, rim_count = 0, rim_inverse = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     inside += 2 * areas[i] / (std::sqrt(3.0) * radii[i] * radii[i]);
@@ -88,17 +77,17 @@ Vec2 MovingSet::free_part(std::size_t i, Vec2 move) const {
   return freedom.dimensions == 1 ? dot(move, freedom.along) * freedom.along : Vec2{};
 }
 
-void MovingSet::collect_spokes(std::size_t i, CellFinder& cells, std::vector<Vec2>& ways) const {
-  cells.load(static_cast<std::uint32_t>(i), reach(i));
-  cells.cell_at({});
+std::vector<Vec2> MovingSet::spokes(std::size_t i, const CellFinder& cells) const {
   std::vector<std::int32_t> labels;
   for (const Cell& part : cells.parts())
     for (const Cell::Corner& corner : part.corners())
       if (corner.label >= 0 && std::find(labels.begin(), labels.end(), corner.label) == labels.end())
         labels.push_back(corner.label);
+  std::vector<Vec2> ways;
   for (const std::int32_t label : labels)
     ways.push_back((1 / units_[i]) *
                    domain().way_to(points_[i], cells.neighbors()[static_cast<std::size_t>(label)]));
+  return ways;
 }
 
 /// What depends on where the point is.
@@ -115,31 +104,17 @@ void MovingSet::put(const Places& places) {
 }
 
 MeshRadii MovingSet::measure(const Control& control) const {
-  std::vector<MeshRadii> parts((size() + block - 1) / block);
-  parallel_blocks(size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder cells = finder(control);
-    MeshRadii& part = parts[begin / block];
-    part = {std::numeric_limits<double>::infinity(), 0};
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i % 64 == 0) control.check();
-      const MeshRadii radii = radii_at(i, cells);
-      part = {std::min(part.shortest, radii.shortest), std::max(part.outermost, radii.outermost)};
-    }
+  std::vector<MeshRadii> blocks((size() + cells_in_block - 1) / cells_in_block, no_radii);
+  for_each_cell(control, [&](std::size_t i, CellFinder& cells) {
+    blocks[i / cells_in_block].include(radii(i, cells));
   });
-  MeshRadii all = parts.front();
-  for (const MeshRadii& part : parts)
-    all = {std::min(all.shortest, part.shortest), std::max(all.outermost, part.outermost)};
+  MeshRadii all = no_radii;
+  for (const MeshRadii& block : blocks) all.include(block);
   return all;
 }
 
-MeshRadii MovingSet::radii_at(std::size_t i, CellFinder& cells) const {
-  cells.load(static_cast<std::uint32_t>(i), reach(i));
-  cells.cell_at({});
-  return radii_of_loaded(i, cells);
-}
-
-MeshRadii MovingSet::radii_of_loaded(std::size_t i, CellFinder& cells) const {
-  MeshRadii radii{std::numeric_limits<double>::infinity(), 0};
+MeshRadii MovingSet::radii(std::size_t i, CellFinder& cells) const {
+  MeshRadii radii = no_radii;
   for (const Neighbor& neighbor : cells.neighbors()) {
     if (neighbor.id == i || both_fixed(i, neighbor.id)) continue;
     const double unit = std::min(units_[i], units_[neighbor.id]);
@@ -151,11 +126,9 @@ MeshRadii MovingSet::radii_of_loaded(std::size_t i, CellFinder& cells) const {
 }
 
 MovingSet::CellIntegrals MovingSet::integrals(std::size_t i, CellFinder& cells) const {
-  cells.load(static_cast<std::uint32_t>(i), reach(i));
-  cells.cell_at({});
   const PolygonMoments m = points_.sizing == nullptr ? cells.moments() : weighted_moments(i, cells);
   const double u = units_[i], u2 = u * u;
-  return {m.area / u2, (1 / (m.area * u)) * m.first, m.second / (u2 * u2), radii_of_loaded(i, cells)};
+  return {m.area / u2, (1 / (m.area * u)) * m.first, m.second / (u2 * u2), radii(i, cells)};
 }
 
 /// Triangles around each part's first corner, each with the weight of its middle, as r(x) is there in

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/control.h"
+#include "core/parallel.h"
 #include "core/point_set.h"
 #include "core/voronoi/cell_finder.h"
 #include "core/voronoi/marks.h"
@@ -44,6 +45,24 @@ class MovingSet {
   CellFinder finder(const Control& control) const { return {points_, grid_, 0, control}; }
   /// How far a finder best looks at first around point i.
   double reach(std::size_t i) const { return 2.3 * units_[i]; }
+  /// Turns a finder to the cell of point i, where that is now.
+  void find_cell(std::size_t i, CellFinder& cells) const {
+    cells.load(static_cast<std::uint32_t>(i), reach(i));
+    cells.cell_at({});
+  }
+  /// Calls use(i, cells) for every point, with its cell found, on all threads. Errors: cancelled,
+  /// deadline_exceeded, what use throws.
+  template <class Use>
+  void for_each_cell(const Control& control, const Use& use) const {
+    parallel_blocks(size(), cells_in_block, control, [&](std::size_t begin, std::size_t end) {
+      CellFinder cells = finder(control);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (i % 64 == 0) control.check();
+        find_cell(i, cells);
+        use(i, cells);
+      }
+    });
+  }
 
   void move_to(std::size_t i, Vec3 to);
   /// Takes point i out, so that cells are those of the others, and puts it back where it now is.
@@ -51,8 +70,9 @@ class MovingSet {
   void put_back(std::size_t i, Vec3 to);
   /// The part of a move that point i is free to make, but for the boundary in front of it.
   Vec2 free_part(std::size_t i, Vec2 move) const;
-  /// Appends the ways to the points that share an edge of their cells with i, in units of i, once each.
-  void collect_spokes(std::size_t i, CellFinder& cells, std::vector<Vec2>& ways) const;
+  /// The ways to the points that share an edge of their cells with i, in units of i, once each. Requires: the
+  /// finder is at i's cell.
+  std::vector<Vec2> spokes(std::size_t i, const CellFinder& cells) const;
 
   void mark(std::size_t i) { marks_.set(i); }
   void mark_all() { marks_.set_all(); }
@@ -68,6 +88,7 @@ class MovingSet {
     double energy = 0;  ///< integral of mass times squared distance
     MeshRadii radii;
   };
+  /// Requires: the finder is at i's cell.
   CellIntegrals integrals(std::size_t i, CellFinder& cells) const;
 
   /// Smallest distance of two points that are not both fixed, and largest distance in a cell, each in its
@@ -89,9 +110,10 @@ class MovingSet {
   const PointSet& points(const PointSet&, const Control&) const { return points_; }  ///< as of a StarMesh
 
  private:
+  static constexpr std::size_t cells_in_block = 256;
+
   void set_units(const Control& control);
-  MeshRadii radii_at(std::size_t i, CellFinder& cells) const;
-  MeshRadii radii_of_loaded(std::size_t i, CellFinder& cells) const;
+  MeshRadii radii(std::size_t i, CellFinder& cells) const;
   PolygonMoments weighted_moments(std::size_t i, CellFinder& cells) const;
   void renew(std::size_t i);
 
