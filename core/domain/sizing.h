@@ -23,7 +23,12 @@ class Sizing {
   virtual double at(Vec3 p) const = 0;        ///< r(p), domain lengths. Requires: p is in the domain
   virtual double least() const = 0;           ///< no r(p) is below this
   virtual double most() const = 0;            ///< nor above this
-  virtual double lipschitz() const = 0;       ///< the least L with |r(p) - r(q)| <= L |p - q|; 0 if constant
+  /// The least L with |r(p) - r(q)| <= L |p - q|, or what is known to be above it; 0 if constant.
+  virtual double lipschitz() const = 0;
+  /// No r(q) is below this for a q within `distance` of p, but across a jump.
+  virtual double least_near(Vec3 p, double distance) const {
+    return std::max(least(), at(p) - lipschitz() * distance);
+  }
 };
 
 /// The same radius everywhere.

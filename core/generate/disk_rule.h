@@ -25,6 +25,10 @@ struct DiskRule {
   double radius(Vec3 p) const { return sizing == nullptr ? scale : scale * sizing->at(p); }
   double least() const { return sizing == nullptr ? scale : scale * sizing->least(); }
   double most() const { return sizing == nullptr ? scale : scale * sizing->most(); }
+  /// No radius within `distance` of p is below this.
+  double least_near(Vec3 p, double distance) const {
+    return sizing == nullptr ? scale : scale * sizing->least_near(p, distance);
+  }
   double lipschitz() const { return sizing == nullptr ? 0 : scale * sizing->lipschitz(); }
 
   /// Of a point that comes later than one whose radius is `earlier`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/error.h"
@@ -226,13 +227,19 @@ class DomainDarts {
     return is_covered(t, center, longest_edge(t));
   }
 
-  /// Whether one disk covers all of what lies between the corners. No place between them is farther than
-  /// size / sqrt(3) from the next one.
+  /// No radius between the corners is below this: no place between them is farther than size / sqrt(3) from
+  /// the next one, along chords, which are at least 2 / pi of the way.
+  double least_between(std::span<const Vec3> corners, double size) const {
+    if (rule_.sizing == nullptr) return rule_.scale;
+    const double within = (domain_.is_flat() ? 1 : std::numbers::pi / 2) * size / std::sqrt(3.0);
+    double least = rule_.most();
+    for (const Vec3 corner : corners) least = std::min(least, rule_.least_near(corner, within));
+    return least;
+  }
+
+  /// Whether one disk covers all of what lies between the corners.
   bool is_covered(std::span<const Vec3> corners, Vec3 center, double size) {
-    double least = rule_.radius(corners[0]);
-    for (const Vec3 corner : corners) least = std::min(least, rule_.radius(corner));
-    least -= rule_.lipschitz() * size / std::sqrt(3.0);
-    if (!(least > 0)) return false;
+    const double least = least_between(corners, size);
     gather(center, rule_.reach(rule_.radius(center)));
     std::array<Vec2, 3> ways;
     for (std::size_t k = 0; k < corners.size(); ++k)
