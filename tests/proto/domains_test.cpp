@@ -132,6 +132,63 @@ TEST(Sizing, AloneSaysTheRadii) {
   EXPECT_NEAR(static_cast<double>(made.points().size()), 310, 40);
 }
 
+/// 2 x 2 pixels: black and white above, 51 and 102 of 255 below.
+const std::string tiny_png =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg+M9gnAYABM4BmRl11eIAAAAASUVORK5CYII=";
+/// Says that it has 60000 x 60000.
+const std::string huge_png =
+    "iVBORw0KGgoAAAANSUhEUgAA6mAAAOpgCAAAAACluSqeAAAACUlEQVR4nEsEAABiAGKnFg2PAAAAAElFTkSuQmCC";
+
+TEST(Sizing, OfAnImageIsThatOfItsGrid) {
+  const std::string rest = R"(},"count":200,"seed":3,"domain":{"type":"box","width":2}})";
+  const Result image = run(
+      "generate", R"({"sizing":{"type":"image","black":0.01,"white":0.06,"png":")" + tiny_png + '"' + rest);
+  const Result grid = run("generate", R"({"sizing":{"type":"grid","radii":[[0.02,0.03],[0.01,0.06]])" + rest);
+  const Sizing &a = *image.points().sizing, &b = *grid.points().sizing;
+  for (const Vec3 p : {Vec3{0.5, 0.25, 0}, {1.5, 0.25, 0}, {0.5, 0.75, 0}, {1.5, 0.75, 0}, {1, 0.5, 0}})
+    EXPECT_NEAR(a.at(p), b.at(p), 1e-15);
+  EXPECT_NEAR(a.at({0.5, 0.75, 0}), 0.01, 1e-15);
+  ASSERT_EQ(image.points().size(), 200u);
+  EXPECT_EQ(image.summary["sizing"]["type"], "image");
+  EXPECT_EQ(image.summary["sizing"]["columns"], 2);
+  EXPECT_NEAR(image.summary["sizing"]["lipschitz"], std::hypot(0.05, 0.06), 1e-12);
+  EXPECT_FALSE(image.summary["sizing"].contains("png"));
+  for (const Result* made : {&image, &grid}) {
+    const std::string bytes = store_result(*made);
+    const Result loaded = load_result(bytes);
+    EXPECT_EQ(store_result(loaded), bytes);
+    EXPECT_EQ(loaded.points().sizing->at({0.7, 0.3, 0}), made->points().sizing->at({0.7, 0.3, 0}));
+  }
+}
+
+TEST(Sizing, OfGridsAndImagesIsRefusedWithTheCulprit) {
+  const auto sized = [](const std::string& sizing) { return R"({"count":9,"sizing":)" + sizing + "}"; };
+  expect_refusals({
+      {"generate", sized(R"({"type":"grid"})"), invalid, "/sizing/radii", "rows of radii"},
+      {"generate", sized(R"({"type":"grid","radii":[]})"), invalid, "/sizing/radii", "array of rows"},
+      {"generate", sized(R"({"type":"grid","radii":[[]]})"), invalid, "/sizing/radii/0", "one at least"},
+      {"generate", sized(R"({"type":"grid","radii":[[1,2],[1]]})"), invalid, "/sizing/radii/1", "first row"},
+      {"generate", sized(R"({"type":"grid","radii":[[1,2],[1,"x"]]})"), invalid, "/sizing/radii/1/1",
+       "a string"},
+      {"generate", sized(R"({"type":"grid","radii":[[1,2],[0,1]]})"), invalid, "/sizing/radii/1/0",
+       "above 0"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2})"), invalid, "/sizing/png", "base64"},
+      {"generate", sized(R"({"type":"image","black":0,"white":2,"png":")" + tiny_png + "\"}"), invalid,
+       "/sizing/black", "above 0"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2,"png":"?"})"), invalid, "/sizing/png",
+       "not base64"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2,"png":"AAAA"})"), invalid, "/sizing/png",
+       "no PNG"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2,"png":")" + tiny_png.substr(0, 68) + "\"}"),
+       invalid, "/sizing/png", "no PNG"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2,"png":")" + huge_png + "\"}"), invalid,
+       "/sizing/png", "60000 x 60000"},
+      {"generate", sized(R"({"type":"vertices","radii":[1,2]})"), invalid, "/sizing/type",
+       "domains of the type mesh"},
+      {"generate", sized(R"({"type":"quadratic"})"), invalid, "/sizing/type", "vertices"},
+  });
+}
+
 TEST(Sizing, IsRefusedWhereItCannotBe) {
   const std::string sizing = R"("sizing":{"type":"constant","radius":0.1})";
   expect_refusals({
