@@ -40,7 +40,7 @@ Local look(const MovingSet& set, std::size_t i, CellFinder& cells, DomainStar& s
   star.load(set, i, cells);
   Local local;
   const double unit = set.unit(i);
-  local.outradius = set.domain().chart_to_distance(std::sqrt(cells.outradius2()));
+  local.outradius = cells.outradius();
   local.area = cells.moments().area / (unit * unit);
   for (const Neighbor& neighbor : cells.neighbors()) {
     if (neighbor.id == i) continue;

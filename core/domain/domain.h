@@ -21,8 +21,11 @@ struct HalfPlane {
 
 /// Sample `id` (or one of its periodic images) as seen from a base point: offset in ambient coordinates.
 struct Neighbor {
+  static constexpr std::uint32_t no_hint = ~0u;
+
   Vec3 offset;
   std::uint32_t id = 0;
+  std::uint32_t hint = no_hint;  ///< the domain's for the sample
 };
 
 /// An axis-aligned box around a domain, with the axes along which it repeats.
@@ -99,6 +102,8 @@ class Domain {
   virtual Box box() const = 0;
   /// The chart of every point is the plane that the domain lies in, moved there.
   virtual bool is_flat() const { return true; }
+  /// Cells that are cut in charts are exact; else their corners are only about where they should be.
+  virtual bool has_exact_cells() const { return true; }
 
   /// Length of the shortest way; on planar domains the straight one, whatever lies between.
   virtual double distance(Vec3 p, Vec3 q) const = 0;
@@ -127,9 +132,19 @@ class Domain {
   /// Whether there is a place of the domain at the tangent vector u at p.
   virtual bool holds(Vec3, Vec2) const { return true; }
 
+  /// Something about where a point is that spares `localize` a search, if a neighbor has it. Whether domains
+  /// have hints at all.
+  virtual bool has_hints() const { return false; }
+  virtual std::uint32_t hint(Vec3) const { return Neighbor::no_hint; }
+
   /// Turns offsets from base, as a search in ambient space found them, into what `bisectors` takes, and drops
-  /// neighbors that are farther than `reach` on the domain.
+  /// neighbors that are farther than `reach` on the domain. One neighbor may be seen in several places then.
   virtual void localize(Vec3, double, std::vector<Neighbor>&) const {}
+
+  /// Whether a neighbor, not yet localized, is nearer to base than that.
+  virtual bool is_nearer(Vec3 base, const Neighbor& neighbor, double distance) const {
+    return norm(way_to(base, neighbor)) < distance;
+  }
 
   /// The bisectors between the candidate step(base, u) and its neighbors, in the candidate's chart.
   /// Requires: out.size() == neighbors.size(); neighbors relative to `base`, localized.

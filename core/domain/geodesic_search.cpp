@@ -59,13 +59,15 @@ GeodesicSearch::GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base
   slack_ = norm(apex_);
 }
 
-void GeodesicSearch::run(Border border, std::size_t enough) {
+void GeodesicSearch::run(Border border, std::size_t enough, Images images) {
   border_ = border;
+  collects_images_ = images == Images::collect;
   if (targets_.empty() && border == Border::ignore) return;
   hash_targets();
   const Vec3 a = mesh_->corner(base_.face, 0);
   const double face = norm(cross(mesh_->corner(base_.face, 1) - a, mesh_->corner(base_.face, 2) - a)) / 2;
-  if (border == Border::ignore && targets_.size() <= most_aimed && pi * reach_ * reach_ > many_faces * face)
+  if (border == Border::ignore && !collects_images_ && targets_.size() <= most_aimed &&
+      pi * reach_ * reach_ > many_faces * face)
     aim_at_targets();
   if (!run_in_any_order(enough)) run_nearest_first();
 }
@@ -115,6 +117,7 @@ void GeodesicSearch::run_nearest_first() {
   nearest_first_ = true;
   windows_.clear();
   views_.clear();
+  images_.clear();
   vertex_distance_.assign(mesh_->vertices().size(), unreached);
   start();
   while (!queue_.empty() && queue_.front().nearest <= limit_ + slack_) {
@@ -204,8 +207,17 @@ void GeodesicSearch::enter(const Window& w, std::uint32_t h, const std::array<Ve
                     weights[(first + 2) % 3] * corners[2];
     if (!between(w.right_ray, w.left_ray, at - apex_of(w))) continue;
     const double distance = bend.before + norm(at);
+    if (collects_images_ && w.bend == 0 && distance <= reach_) collect(k, at);
     improve(targets_[k], distance, w.bend == 0 ? at : distance * bend.first);
   }
+}
+
+/// Two windows that meet at a target both see it.
+void GeodesicSearch::collect(std::uint32_t target, Vec2 at) {
+  constexpr double same = 1e-9;
+  for (const Image& image : images_)
+    if (image.target == target && size1(image.vector - at) <= same * size1(at)) return;
+  images_.push_back({target, at});
 }
 
 void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {
@@ -214,7 +226,7 @@ void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {
   target.distance = distance;
   target.bound = std::min(target.bound, distance);
   target.vector = vector;
-  if (found_ < targets_.size() || border_ == Border::look) return;
+  if (found_ < targets_.size() || border_ == Border::look || collects_images_) return;
   limit_ = 0;
   for (const Target& t : targets_) limit_ = std::max(limit_, t.distance);
 }

@@ -45,17 +45,29 @@ class GeodesicSearch {
     double bound = unreached;  ///< length of some way, maybe not a straight one
   };
   enum class Border { ignore, look };
+  /// A target as it is seen from the base, straight ahead over unfolded faces.
+  struct Image {
+    std::uint32_t target = 0;
+    Vec2 vector;
+  };
+  enum class Images { ignore, collect };
 
   /// Requires: the unfolding outlives it.
   GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base, double reach);
 
   void add(const MeshPlace& place) { targets_.push_back({place, unreached, {}, none, {}, unreached}); }
-  /// With Border::look it goes on to the end of reach even if all targets were found. `enough`: see above.
-  void run(Border border = Border::ignore, std::size_t enough = enough_windows);
+  /// With Border::look and Images::collect it goes on to the end of reach even if all targets were found.
+  /// `enough`: see above.
+  void run(Border border = Border::ignore, std::size_t enough = enough_windows,
+           Images images = Images::ignore);
 
   /// In the order in which they were added.
   const std::vector<Target>& targets() const { return targets_; }
   const std::vector<BorderView>& border_views() const { return views_; }
+  /// With Images::collect: all straight ways within reach, not just the shortest: behind a vertex with less
+  /// than a whole turn around it one sees what is there past its left and past its right. With more than
+  /// `enough` windows only some of them.
+  const std::vector<Image>& images() const { return images_; }
   /// From where they are seen: the base, or, if that is on an edge, a place beside it in its face.
   Vec2 apex() const { return apex_; }
 
@@ -101,6 +113,7 @@ class GeodesicSearch {
   void go_on(const Window& w);
   void cross_edge(const Window& w);
   void enter(const Window& w, std::uint32_t h, const std::array<Vec2, 3>& corners);
+  void collect(std::uint32_t target, Vec2 at);
   void improve(Target& target, double distance, Vec2 vector);
   void see_vertex(const Window& w, std::uint32_t h, Vec2 at, Vec2 along);
   bool is_news(std::uint32_t vertex, double distance);
@@ -123,11 +136,13 @@ class GeodesicSearch {
   Vec2 apex_;  ///< the base, moved off edges into its face, so that what is behind an edge is beyond it
   std::array<Vec2, 3> corners_;
   Border border_ = Border::ignore;
+  bool collects_images_ = false;
   bool nearest_first_ = false, is_aimed_ = false;
   std::size_t found_ = 0;
   std::vector<Target> targets_;
   std::vector<std::array<std::uint32_t, 2>> faces_with_targets_;  ///< a hash table: face, first target
   std::vector<BorderView> views_;
+  std::vector<Image> images_;
   std::vector<Window> windows_;
   std::vector<Queued> queue_;
   std::vector<std::uint32_t> free_slots_;

@@ -61,11 +61,22 @@ MeshPlace SurfaceMesh::locate(Vec3 p) const { return spot(p).place; }
 SurfaceMesh::Spot SurfaceMesh::spot(Vec3 p) const {
   auto found = tree_.find(p, rounding_ / 16);
   if (!found) found = tree_.nearest(p);
-  Spot spot{{found->face, found->weights}, {}};
+  return spot_in({found->face, found->weights}, p);
+}
+
+SurfaceMesh::Spot SurfaceMesh::spot_in(const MeshPlace& place, Vec3 p) const {
+  Spot spot{place, {}};
   if (border_.curves().empty()) return spot;
-  spot.border = border_.spot(p, found->face);
+  spot.border = border_.spot(p, place.face);
   if (spot.border) spot.place = border_.place(*spot.border);
   return spot;
+}
+
+MeshPlace SurfaceMesh::locate(Vec3 p, std::uint32_t face) const {
+  if (face == Neighbor::no_hint) return locate(p);
+  const auto weights =
+      nearest_weights(mesh_.corner(face, 0), mesh_.corner(face, 1), mesh_.corner(face, 2), p);
+  return spot_in({face, weights}, p).place;
 }
 
 Vec3 SurfaceMesh::nearest(Vec3 p) const { return position(locate(p)); }
@@ -169,20 +180,35 @@ std::optional<Vec3> SurfaceMesh::boundary_point_at(Vec3 p) const {
 }
 
 void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const {
-  const MeshPlace place = locate(base);
-  std::size_t kept = 0;
-  for (std::size_t begin = 0, end = 0; begin < neighbors.size(); begin = end) {
-    end = std::min(neighbors.size(), begin + GeodesicSearch::most_aimed);
-    GeodesicSearch search(unfolding_, place, reach);
-    for (std::size_t k = begin; k < end; ++k) search.add(locate(base + neighbors[k].offset));
-    search.run();
-    for (std::size_t k = begin; k < end; ++k) {
-      const GeodesicSearch::Target& target = search.targets()[k - begin];
-      if (target.distance > reach) continue;
-      neighbors[kept++] = {{target.vector.x, target.vector.y, 0}, neighbors[k].id};
-    }
+  GeodesicSearch search(unfolding_, locate(base), reach);
+  for (const Neighbor& neighbor : neighbors) search.add(locate(base + neighbor.offset, neighbor.hint));
+  search.run(GeodesicSearch::Border::ignore, GeodesicSearch::enough_windows, GeodesicSearch::Images::collect);
+  std::vector<GeodesicSearch::Image> images = search.images();
+  std::vector<double> nearest(neighbors.size(), GeodesicSearch::unreached);
+  for (const auto& [target, vector] : images) nearest[target] = std::min(nearest[target], norm(vector));
+  for (std::uint32_t k = 0; k < neighbors.size(); ++k) {
+    const GeodesicSearch::Target& target = search.targets()[k];
+    if (target.distance <= reach && target.distance < nearest[k]) images.push_back({k, target.vector});
   }
-  neighbors.resize(kept);
+  std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) {
+    return a.target != b.target ? a.target < b.target : norm2(a.vector) < norm2(b.vector);
+  });
+  std::vector<Neighbor> localized;
+  localized.reserve(images.size());
+  for (const auto& [target, vector] : images)
+    localized.push_back({{vector.x, vector.y, 0}, neighbors[target].id, neighbors[target].hint});
+  neighbors.swap(localized);
+}
+
+bool SurfaceMesh::is_nearer(Vec3 base, const Neighbor& neighbor, double distance) const {
+  if (norm(neighbor.offset) >= distance) return false;
+  const MeshPlace from = locate(base), to = locate(base + neighbor.offset, neighbor.hint);
+  if (from.face == to.face) return true;
+  if (const auto way = aim(unfolding_, from, to); way && way->length < distance) return true;
+  GeodesicSearch search(unfolding_, from, distance);
+  search.add(to);
+  search.run();
+  return search.targets().front().distance < distance;
 }
 
 void SurfaceMesh::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors,

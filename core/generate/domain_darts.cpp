@@ -76,16 +76,11 @@ class DomainDarts {
   }
 
   bool has_conflict(Vec3 p, double r) {
-    gather(p, rule_.reach(r) / rule_.coverage);
-    return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
-      return norm(domain_.way_to(p, q)) < rule_.distance(r, radii_[q.id]);
-    });
-  }
-
-  void gather(Vec3 p, double reach) {
     neighbors_.clear();
-    grid_.gather(p, nobody, reach, neighbors_);
-    domain_.localize(p, reach, neighbors_);
+    grid_.gather(p, nobody, rule_.reach(r) / rule_.coverage, neighbors_);
+    return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
+      return domain_.is_nearer(p, q, rule_.distance(r, radii_[q.id]));
+    });
   }
 
   void add(Vec3 p, double r) {
@@ -240,16 +235,38 @@ class DomainDarts {
   /// Whether one disk covers all of what lies between the corners.
   bool is_covered(std::span<const Vec3> corners, Vec3 center, double size) {
     const double least = least_between(corners, size);
-    gather(center, rule_.reach(rule_.radius(center)));
+    gather_covering(corners, center, least);
+    if (neighbors_.empty()) return false;
     std::array<Vec2, 3> ways;
     for (std::size_t k = 0; k < corners.size(); ++k)
       ways[k] = domain_.way_to(center, localized(center, corners[k], size));
     return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
       const Vec2 way = domain_.way_to(center, q);
-      const double radius = rule_.coverage * rule_.distance(least, radii_[q.id]), radius2 = radius * radius;
+      const double radius = coverage_radius(least, q.id), radius2 = radius * radius;
       return std::all_of(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(corners.size()),
                          [&](Vec2 corner) { return norm2(corner - way) < radius2; });
     });
+  }
+
+  double coverage_radius(double least, std::uint32_t id) const {
+    return rule_.coverage * rule_.distance(least, radii_[id]);
+  }
+
+  /// Localized neighbors whose disks may cover all corners, for not even straight through space is one too
+  /// far.
+  void gather_covering(std::span<const Vec3> corners, Vec3 center, double least) {
+    neighbors_.clear();
+    grid_.gather(center, nobody, rule_.reach(rule_.radius(center)), neighbors_);
+    double reach = 0;
+    const auto is_far = [&](const Neighbor& q) {
+      const double radius = coverage_radius(least, q.id), radius2 = radius * radius;
+      for (const Vec3 corner : corners)
+        if (norm2(corner - center - q.offset) >= radius2) return true;
+      reach = std::max(reach, radius);
+      return false;
+    };
+    neighbors_.erase(std::remove_if(neighbors_.begin(), neighbors_.end(), is_far), neighbors_.end());
+    if (!neighbors_.empty()) domain_.localize(center, reach, neighbors_);
   }
 
   Neighbor localized(Vec3 center, Vec3 p, double size) {

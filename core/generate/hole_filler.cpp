@@ -18,7 +18,12 @@ bool HoleFiller::ComesLater::operator()(const Hole& a, const Hole& b) const {
 }
 
 HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control)
-    : points_(points), grid_(grid), rule_(rule), control_(control), finder_(points, grid, 0, control) {}
+    : points_(points),
+      grid_(grid),
+      rule_(rule),
+      control_(control),
+      finder_(points, grid, 0, control),
+      settler_(points, grid) {}
 
 void HoleFiller::fill() {
   const double enough = rule_.coverage * (1 + 1e-9);
@@ -47,23 +52,28 @@ void HoleFiller::look(std::uint32_t i, double deeper_than) {
   const double r = rule_.radius(points_[i]);
   finder_.load(i, 2.5 * rule_.coverage * r);
   finder_.cell_at({});
-  for (const Cell& part : finder_.parts()) {
-    const std::span<const Cell::Corner> corners = part.corners();
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const bool is_rim = corners[k].label < 0 || corners[k == 0 ? corners.size() - 1 : k - 1].label < 0;
-      const double length = norm(corners[k].at);
+  for (const Cell& part : finder_.parts())
+    for (std::size_t k = 0; k < part.corners().size(); ++k) {
+      const double length = norm(part.corners()[k].at);
       if (!(length > 0)) continue;
       const double distance = domain.chart_to_distance(length);
-      const Vec3 at = domain.place_at(points_[i], (distance / length) * corners[k].at);
-      const std::optional<Vec3> on_rim = is_rim ? domain.boundary_point_at(at) : std::nullopt;
-      if (is_rim && (!on_rim || domain.freedom(*on_rim).dimensions == 0)) continue;
-      const Vec3 place = on_rim.value_or(at);
-      const double depth = distance / rule_.distance(rule_.radius(place), r);
-      if (depth <= deeper_than) continue;
-      heap_.push_back({depth, place});
-      std::push_heap(heap_.begin(), heap_.end(), ComesLater());
+      const Vec3 at = domain.place_at(points_[i], (distance / length) * part.corners()[k].at);
+      look_at_corner({at, distance}, part.is_outer(k), r, deeper_than);
     }
-  }
+}
+
+/// Of the cell of a point with radius r.
+void HoleFiller::look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than) {
+  const Domain& domain = *points_.domain;
+  const std::optional<Vec3> on_rim = is_outer ? domain.boundary_point_at(corner.at) : std::nullopt;
+  if (is_outer && (!on_rim || domain.freedom(*on_rim).dimensions == 0)) return;
+  if (on_rim) corner.at = *on_rim;
+  const auto depth = [&] { return corner.distance / rule_.distance(rule_.radius(corner.at), r); };
+  if (depth() <= deeper_than) return;
+  if (!domain.has_exact_cells()) corner = settler_.settle(corner.at, corner.distance, is_outer);
+  if (depth() <= deeper_than) return;
+  heap_.push_back({depth(), corner.at});
+  std::push_heap(heap_.begin(), heap_.end(), ComesLater());
 }
 
 /// As of now: points may have come since the hole was found.

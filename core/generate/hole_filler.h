@@ -8,6 +8,7 @@
 #include "core/generate/disk_rule.h"
 #include "core/point_set.h"
 #include "core/voronoi/cell_finder.h"
+#include "core/voronoi/corner_settler.h"
 #include "core/voronoi/neighbors.h"
 
 namespace wellspaced {
@@ -39,6 +40,7 @@ class HoleFiller {
 
   void collect(double deeper_than);
   void look(std::uint32_t i, double deeper_than);
+  void look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than);
   double depth_of(Vec3 at);
   bool take_deepest(double deeper_than, Hole& deepest);
   void insert(const Hole& hole, double deeper_than);
@@ -48,6 +50,7 @@ class HoleFiller {
   const DiskRule& rule_;
   Control& control_;
   CellFinder finder_;
+  CornerSettler settler_;
   std::vector<Hole> heap_;
   std::vector<Neighbor> neighbors_;
 };

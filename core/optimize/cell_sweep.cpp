@@ -9,6 +9,8 @@ namespace {
 
 constexpr double margin = 1.001;  // aim a little past the targets, so that points settle
 constexpr double longest_step = 0.2;
+constexpr double unsure =
+    0.93;  // corners of inexact cells may be as far as r_c though they say this much of it
 
 /// A corner of the cell that no other corner next to it is farther than: where parts of a cell meet, there
 /// are others, which lie on the way between two corners.
@@ -22,7 +24,7 @@ void for_each_far_corner(const Cell& part, double beyond2, const Use& use) {
     const Cell::Corner &before = corners[k == 0 ? m - 1 : k - 1], &after = corners[k + 1 == m ? 0 : k + 1];
     const bool seam = before.label < 0 || corners[k].label < 0;
     if (seam && (norm2(before.at) > d2 || norm2(after.at) > d2)) continue;
-    use(corners[k], before);
+    use(k, corners[k], before);
   }
 }
 
@@ -101,29 +103,30 @@ class Sweeper {
         least = std::min(least, set_.unit(spokes_.back()));
       }
     }
-    const double r_c = set_.domain().distance_to_chart(targets_.r_c * least);
+    const double sure = set_.domain().has_exact_cells() ? 1 : unsure;
+    const double r_c = set_.domain().distance_to_chart(sure * targets_.r_c * least);
     for (const Cell& part : finder_.parts()) {
       if (part.outradius2() <= r_c * r_c) continue;
-      for_each_far_corner(part, r_c * r_c, [&](const Cell::Corner& corner, const Cell::Corner& before) {
-        look_at_corner(i, corner, before);
-      });
+      for_each_far_corner(part, r_c * r_c,
+                          [&](std::size_t k, const Cell::Corner& corner, const Cell::Corner& before) {
+                            look_at_corner(i, finder_.distance_of_corner(part, k), corner, before);
+                          });
     }
   }
 
   /// It is too far if it is so for any of the points around it; else those with smaller units would be the
   /// only ones to move, and leave their place for good.
-  void look_at_corner(std::size_t i, const Cell::Corner& corner, const Cell::Corner& before) {
+  void look_at_corner(std::size_t i, double away, const Cell::Corner& corner, const Cell::Corner& before) {
     double unit = set_.unit(i);
     for (const std::int32_t label : {corner.label, before.label})
       if (label >= 0) unit = std::min(unit, set_.unit(id_of(label)));
-    const double in_chart = norm(corner.at);
-    const double distance = set_.domain().chart_to_distance(in_chart) / unit;
+    const double distance = away / unit;
     if (distance <= targets_.r_c) return;
     violates_ = true;
     for (const std::int32_t label : {corner.label, before.label})
       if (label >= 0) involved_.push_back(id_of(label));
     const double excess = targets_.pull * (distance - targets_.r_c / margin) * unit / set_.unit(i);
-    move_ = move_ + (excess / in_chart) * corner.at;
+    move_ = move_ + (excess / norm(corner.at)) * corner.at;
   }
 
   std::uint32_t id_of(std::int32_t label) const {

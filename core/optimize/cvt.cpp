@@ -28,14 +28,17 @@ struct Cells {
     to_centroid.resize(set.size());
     area.resize(set.size());
     std::vector<MovingSet::CellIntegrals> all(set.size());
-    set.for_each_cell(control, [&](std::size_t i, CellFinder& cells) { all[i] = set.integrals(i, cells); });
+    MovingSet::BlockRadii blocks(set.size());
+    set.for_each_cell(control, [&](std::size_t i, CellFinder& cells) {
+      all[i] = set.integrals(i, cells);
+      set.include_radii(i, cells, blocks);
+    });
+    radii = blocks.total();
     energy = 0;
-    radii = no_radii;
     for (std::size_t i = 0; i < set.size(); ++i) {
       to_centroid[i] = set.free_part(i, all[i].to_centroid);
       area[i] = all[i].mass;
       energy += all[i].energy;
-      radii.include(all[i].radii);
     }
   }
 

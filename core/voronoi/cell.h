@@ -30,6 +30,10 @@ class Cell {
   void clip(const HalfPlane& half_plane, std::int32_t label);
 
   std::span<const Corner> corners() const { return corners_; }
+  /// Whether the corner number k lies on an edge of what the cell started from.
+  bool is_outer(std::size_t k) const {
+    return corners_[k].label < 0 || corners_[k == 0 ? corners_.size() - 1 : k - 1].label < 0;
+  }
   /// Squared distance from the origin to the farthest corner, in the chart.
   double outradius2() const { return outradius2_; }
   /// No edge of the starting square is left.

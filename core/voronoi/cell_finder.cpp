@@ -18,6 +18,7 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
       grid_(&grid),
       control_(&control),
       first_reach_(reach),
+      settler_(points, grid),
       is_flat_(points.domain->is_flat()),
       has_boundary_(points.domain->boundary_length() > 0) {
   // No cell has an outradius above the diagonal of the domain's box, so nothing farther than this can matter.
@@ -86,6 +87,25 @@ double CellFinder::outradius2() const {
   double most = 0;
   for (const Cell& part : parts()) most = std::max(most, part.outradius2());
   return most;
+}
+
+double CellFinder::outradius(double at_least) {
+  const Domain& domain = *points_->domain;
+  if (domain.has_exact_cells()) return domain.chart_to_distance(std::sqrt(outradius2()));
+  double most = 0;
+  for (const Cell& part : parts())
+    for (std::size_t k = 0; k < part.corners().size(); ++k)
+      if (norm(part.corners()[k].at) > std::max(at_least, most))
+        most = std::max(most, distance_of_corner(part, k));
+  return most;
+}
+
+double CellFinder::distance_of_corner(const Cell& part, std::size_t k) {
+  const Domain& domain = *points_->domain;
+  const Vec2 corner = part.corners()[k].at;
+  const double claimed = domain.chart_to_distance(norm(corner));
+  if (domain.has_exact_cells()) return claimed;
+  return settler_.settle(domain.place_at(base_, corner), claimed, part.is_outer(k)).distance;
 }
 
 PolygonMoments CellFinder::moments() {

@@ -10,6 +10,7 @@
 #include "core/point_set.h"
 #include "core/voronoi/candidate_star.h"
 #include "core/voronoi/cell.h"
+#include "core/voronoi/corner_settler.h"
 #include "core/voronoi/neighbors.h"
 
 namespace wellspaced {
@@ -52,6 +53,11 @@ class CellFinder {
   /// Of what parts() are together: farthest corner's distance in the chart, squared; integrals.
   double outradius2() const;
   PolygonMoments moments();
+  /// Distance of the farthest corner of the cell from the loaded sample where it is. Where the domain's
+  /// charts are not exact, corners that say more than `at_least` are looked for on the domain itself.
+  double outradius(double at_least = 0);
+  /// The same of the corner number k of a part.
+  double distance_of_corner(const Cell& part, std::size_t k);
   /// Samples around the loaded one, nearest first, as of cell_at.
   std::span<const Neighbor> neighbors() const { return neighbors_; }
 
@@ -81,6 +87,7 @@ class CellFinder {
   std::vector<Vec2> polygon_;
   bool clipped_ = false;
   CandidateStar star_;
+  CornerSettler settler_;
   StarUse star_use_ = StarUse::not_loaded;
   bool is_flat_, has_boundary_, sorted_ = false, has_own_images_ = false;
 };

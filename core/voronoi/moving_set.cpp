@@ -104,31 +104,28 @@ void MovingSet::put(const Places& places) {
 }
 
 MeshRadii MovingSet::measure(const Control& control) const {
-  std::vector<MeshRadii> blocks((size() + cells_in_block - 1) / cells_in_block, no_radii);
-  for_each_cell(control, [&](std::size_t i, CellFinder& cells) {
-    blocks[i / cells_in_block].include(radii(i, cells));
-  });
-  MeshRadii all = no_radii;
-  for (const MeshRadii& block : blocks) all.include(block);
-  return all;
+  BlockRadii blocks(size());
+  for_each_cell(control, [&](std::size_t i, CellFinder& cells) { include_radii(i, cells, blocks); });
+  return blocks.total();
 }
 
-MeshRadii MovingSet::radii(std::size_t i, CellFinder& cells) const {
-  MeshRadii radii = no_radii;
+void MovingSet::include_radii(std::size_t i, CellFinder& cells, BlockRadii& blocks) const {
+  MeshRadii& radii = blocks.of(i);
   for (const Neighbor& neighbor : cells.neighbors()) {
     if (neighbor.id == i || both_fixed(i, neighbor.id)) continue;
     const double unit = std::min(units_[i], units_[neighbor.id]);
     radii.shortest = std::min(radii.shortest, norm(domain().way_to(points_[i], neighbor)) / unit);
     if (points_.sizing == nullptr) break;  // nearest first
   }
-  radii.outermost = domain().chart_to_distance(std::sqrt(cells.outradius2())) / units_[i];
-  return radii;
+  constexpr double slack = 0.9;  // corners may turn out to be farther away than they say
+  radii.outermost =
+      std::max(radii.outermost, cells.outradius(slack * radii.outermost * units_[i]) / units_[i]);
 }
 
 MovingSet::CellIntegrals MovingSet::integrals(std::size_t i, CellFinder& cells) const {
   const PolygonMoments m = points_.sizing == nullptr ? cells.moments() : weighted_moments(i, cells);
   const double u = units_[i], u2 = u * u;
-  return {m.area / u2, (1 / (m.area * u)) * m.first, m.second / (u2 * u2), radii(i, cells)};
+  return {m.area / u2, (1 / (m.area * u)) * m.first, m.second / (u2 * u2)};
 }
 
 /// Triangles around each part's first corner, each with the weight of its middle, as r(x) is there in

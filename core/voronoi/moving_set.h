@@ -86,10 +86,26 @@ class MovingSet {
     double mass = 0;
     Vec2 to_centroid;
     double energy = 0;  ///< integral of mass times squared distance
-    MeshRadii radii;
   };
   /// Requires: the finder is at i's cell.
   CellIntegrals integrals(std::size_t i, CellFinder& cells) const;
+
+  /// Radii of a set of n, block by block, so that many threads can gather them.
+  class BlockRadii {
+   public:
+    explicit BlockRadii(std::size_t n) : blocks_((n + cells_in_block - 1) / cells_in_block, no_radii) {}
+    MeshRadii& of(std::size_t i) { return blocks_[i / cells_in_block]; }
+    MeshRadii total() const {
+      MeshRadii all = no_radii;
+      for (const MeshRadii& block : blocks_) all.include(block);
+      return all;
+    }
+
+   private:
+    std::vector<MeshRadii> blocks_;
+  };
+  /// Includes those of i's cell. Requires: the finder is at it, in for_each_cell.
+  void include_radii(std::size_t i, CellFinder& cells, BlockRadii& blocks) const;
 
   /// Smallest distance of two points that are not both fixed, and largest distance in a cell, each in its
   /// units. Errors: cancelled, deadline_exceeded. Cost: about 0.8 us a point and thread.
@@ -113,7 +129,6 @@ class MovingSet {
   static constexpr std::size_t cells_in_block = 256;
 
   void set_units(const Control& control);
-  MeshRadii radii(std::size_t i, CellFinder& cells) const;
   PolygonMoments weighted_moments(std::size_t i, CellFinder& cells) const;
   void renew(std::size_t i);
 

@@ -11,7 +11,8 @@ struct NeighborGrid::Window {
   double reach2;
 };
 
-NeighborGrid::NeighborGrid(const PointSet& points, double cell, std::size_t expected) : points_(&points) {
+NeighborGrid::NeighborGrid(const PointSet& points, double cell, std::size_t expected)
+    : points_(&points), has_hints_(points.domain->has_hints()) {
   const Box box = points.domain->box();
   const double low[3] = {box.low.x, box.low.y, box.low.z};
   const double size[3] = {box.size.x, box.size.y, box.size.z};
@@ -39,6 +40,8 @@ NeighborGrid::NeighborGrid(const PointSet& points, double cell, std::size_t expe
     next_[i] = first_[c];
     first_[c] = static_cast<std::uint32_t>(i);
   }
+  for (std::size_t i = 0; i < points.size() && has_hints_; ++i)
+    hints_.push_back(points.domain->hint(points[i]));
 }
 
 std::size_t NeighborGrid::cell_of(Vec3 p) const {
@@ -90,11 +93,12 @@ void NeighborGrid::gather_cell(std::size_t cell, const Window& window, Vec3 shif
     const Vec3 offset = ((*points_)[i] - window.base) + shift;
     if (norm2(offset) > window.reach2) continue;
     if (i == window.self && shift == Vec3{}) continue;
-    out.push_back({offset, i});
+    out.push_back({offset, i, has_hints_ ? hints_[i] : Neighbor::no_hint});
   }
 }
 
 void NeighborGrid::move(std::uint32_t i, Vec3 from, Vec3 to) {
+  if (has_hints_) hints_[i] = points_->domain->hint(to);
   const std::size_t old_cell = cell_of(from), new_cell = cell_of(to);
   if (old_cell == new_cell) return;
   take_out(i, from);
@@ -108,13 +112,16 @@ void NeighborGrid::take_out(std::uint32_t i, Vec3 at) {
 }
 
 void NeighborGrid::put_back(std::uint32_t i, Vec3 at) {
+  if (has_hints_) hints_[i] = points_->domain->hint(at);
   std::uint32_t& first = first_[cell_of(at)];
   next_[i] = first;
   first = i;
 }
 
 void NeighborGrid::add(std::uint32_t i) {
-  std::uint32_t& first = first_[cell_of((*points_)[i])];
+  const Vec3 at = (*points_)[i];
+  if (has_hints_) hints_.push_back(points_->domain->hint(at));
+  std::uint32_t& first = first_[cell_of(at)];
   next_.push_back(first);
   first = i;
 }

@@ -56,8 +56,10 @@ class NeighborGrid {
   void gather_cell(std::size_t cell, const Window& window, Vec3 shift, std::vector<Neighbor>& out) const;
 
   const PointSet* points_;
+  bool has_hints_;
   std::array<Axis, 3> axes_;
   std::vector<std::uint32_t> first_, next_;
+  std::vector<std::uint32_t> hints_;  ///< of each sample, where the domain has them
 };
 
 }  // namespace wellspaced

@@ -193,6 +193,7 @@ TEST(SurfaceMesh, LocalizeIsTheSameForManyNeighborsAsForEach) {
   // Faces so small that it aims first, and more neighbors than are aimed at together.
   const SurfaceMesh mesh{TriangleMesh(height_field(60, 1, bumps))};
   Rng rng(9);
+  std::size_t images = 0;  // beyond the first ones
   for (int k = 0; k < 4; ++k) {
     const Vec3 p = mesh.random_point(rng);
     std::vector<Neighbor> neighbors;
@@ -201,14 +202,40 @@ TEST(SurfaceMesh, LocalizeIsTheSameForManyNeighborsAsForEach) {
     mesh.localize(p, 0.6, neighbors);
     std::size_t at = 0;
     for (const Neighbor& neighbor : before) {
-      const double distance = mesh.distance(p, p + neighbor.offset);
+      const Vec3 q = p + neighbor.offset;
+      const double distance = mesh.distance(p, q);
       ASSERT_EQ(at < neighbors.size() && neighbors[at].id == neighbor.id, distance <= 0.6) << neighbor.id;
       if (distance > 0.6) continue;
       EXPECT_NEAR(norm(neighbors[at].offset), distance, 1e-12);
-      ++at;
+      for (bool is_first = true; at < neighbors.size() && neighbors[at].id == neighbor.id; is_first = false) {
+        const Vec2 way = mesh.way_to(p, neighbors[at++]);
+        images += is_first ? 0 : 1;
+        if (!is_first) {
+          EXPECT_LT(norm(mesh.place_at(p, way) - q), 1e-9) << neighbor.id;
+        }
+      }
     }
     EXPECT_EQ(at, neighbors.size());
   }
+  EXPECT_GT(images, 10u);
+}
+
+/// The corner of a cube, unfolded by hand: what lies behind it is seen past both of its sides, a quarter turn
+/// apart.
+TEST(SurfaceMesh, WhatLiesBehindACornerIsSeenPastBothOfItsSides) {
+  // Three squares that meet in the origin, seen from outside.
+  const Triangles corner{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}},
+                         {{0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 5, 4}, {0, 6, 5}, {0, 1, 6}}};
+  const SurfaceMesh mesh{TriangleMesh(corner)};
+  const Vec3 p{0.4, 0.4, 0}, q{0, 0.1, 0.12};
+  std::vector<Neighbor> neighbors = {{q - p, 5}};
+  mesh.localize(p, 2, neighbors);
+  ASSERT_EQ(neighbors.size(), 2u);
+  // Over the edge along y: q in the plane z = 0 is (-0.12, 0.1). Over the edge along x, and then that along
+  // z: (0.1, -0.12) and a quarter turn on, which is not in sight, or (-0.1, -0.12).
+  const double direct = std::hypot(0.4 + 0.12, 0.4 - 0.1), around = std::hypot(0.4 + 0.1, 0.4 + 0.12);
+  EXPECT_NEAR(norm(neighbors[0].offset), direct, 1e-14);
+  EXPECT_NEAR(norm(neighbors[1].offset), around, 1e-14);
 }
 
 TEST(SurfaceMesh, HardMeshesStayExact) {

@@ -1,0 +1,125 @@
+// Point sets on surface meshes: what is measured of them, and what generators promise, against places that
+// are looked at one by one.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/analyze/spacing.h"
+#include "core/domain/sizing.h"
+#include "core/domain/surface_mesh.h"
+#include "core/optimize/opt_beta.h"
+#include "core/voronoi/corner_settler.h"
+#include "core/voronoi/moving_set.h"
+#include "tests/support/domains.h"
+#include "tests/support/meshes.h"
+
+namespace wellspaced {
+namespace {
+
+using testing::mps_on;
+
+const Control plain;
+
+std::vector<std::pair<std::string, std::shared_ptr<const SurfaceMesh>>> meshes() {
+  const auto made = [](Triangles triangles) {
+    return std::make_shared<const SurfaceMesh>(TriangleMesh(std::move(triangles)));
+  };
+  const auto hills = [](double x, double y) { return 0.2 * std::sin(7 * x) * std::cos(6 * y); };
+  std::vector<std::pair<std::string, std::shared_ptr<const SurfaceMesh>>> all = {
+      {"tetrahedron", made(testing::tetrahedron())},
+      {"icosahedron", made(testing::icosahedron())},
+      {"sphere", made(testing::refined_sphere(testing::icosahedron(), 2))},
+      {"hills with a border", made(testing::height_field(12, 1, hills))}};
+  if (const std::string data = testing::shared_data(); !data.empty())
+    all.emplace_back("fertility", made(testing::read_triangles(data + "/meshes/fertility_small.off")));
+  return all;
+}
+
+/// From a place to its nearest point: the shortest way over the mesh to each of those near it in space.
+double depth(const SurfaceMesh& mesh, const PointSet& points, Vec3 place, double reach) {
+  std::vector<std::pair<double, std::size_t>> by_chord;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const double chord = norm(points[i] - place); chord < reach) by_chord.emplace_back(chord, i);
+  std::sort(by_chord.begin(), by_chord.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [chord, i] : by_chord) {
+    if (chord >= least) break;
+    if (const auto way = mesh.logarithm(place, points[i], std::min(reach, 1.01 * least)))
+      least = std::min(least, norm(*way));
+  }
+  return least;
+}
+
+double deepest_of_many(const SurfaceMesh& mesh, const PointSet& points, double reach, int places) {
+  Rng rng(17);
+  double most = 0;
+  for (int k = 0; k < places; ++k) most = std::max(most, depth(mesh, points, mesh.random_point(rng), reach));
+  return most;
+}
+
+TEST(MeshSets, AreMaximalAndTheirRadiiAreThoseOfTheSurface) {
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const PointSet points = mps_on(mesh, 400, 3);
+    const Spacing spacing = measure_spacing(points, plain);
+    EXPECT_LE(spacing.beta, 1 + 1e-9);
+    const double deepest = deepest_of_many(*mesh, points, 2 * spacing.r_c, 1000);
+    EXPECT_LE(deepest, spacing.r_c * (1 + 1e-9)) << "there is a hole that nobody measured";
+    EXPECT_GE(deepest, 0.9 * spacing.r_c) << "no place is that far from all points";
+  }
+}
+
+TEST(MeshSets, CornersThatAreSettledAreAsFarAsTheySay) {
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const PointSet points = mps_on(mesh, 400, 4);
+    const MovingSet set(points, plain);
+    const NeighborGrid grid(points, set.spacing());
+    CornerSettler settler(points, grid);
+    CellFinder cells = set.finder(plain);
+    for (std::size_t i = 0; i < 12; ++i) {
+      set.find_cell(i, cells);
+      for (const Cell& part : cells.parts())
+        for (std::size_t k = 0; k < part.corners().size(); ++k) {
+          const Vec2 at = part.corners()[k].at;
+          const CornerSettler::Corner corner =
+              settler.settle(mesh->place_at(points[i], at), norm(at), part.is_outer(k));
+          EXPECT_NEAR(corner.distance, depth(*mesh, points, corner.at, 4 * set.spacing()),
+                      1e-9 * set.spacing());
+        }
+    }
+  }
+}
+
+TEST(MeshSets, ReachTheirBetaWithAndWithoutSizing) {
+  for (const auto& [name, mesh] : meshes())
+    for (const bool sized : {false, true}) {
+      SCOPED_TRACE(name + (sized ? " sized" : ""));
+      const auto sizing = std::make_shared<LinearSizing>(*mesh, LinearSizingOptions{1, 1, 1.5});
+      Rng rng(5);
+      Control control;
+      DiskRule rule;
+      if (sized) rule.sizing = sizing.get();
+      PointSet points = throw_darts_over_to_count(mesh, 500, rule, rng, control);
+      if (sized) points.sizing = sizing;
+      OptBetaOptions options;
+      options.beta = 0.8;
+      const OptimizeResult result = opt_beta(points, options, control);
+      EXPECT_EQ(result.converged, true);
+      const Spacing before = measure_spacing(points, plain), after = measure_spacing(result.points, plain);
+      EXPECT_LE(after.beta, 0.8);
+      EXPECT_LT(after.beta_i_mean, before.beta_i_mean);
+      if (sized) continue;
+      EXPECT_LE(deepest_of_many(*mesh, result.points, 2 * after.r_c, 500), after.r_c * (1 + 1e-9));
+    }
+}
+
+}  // namespace
+}  // namespace wellspaced
