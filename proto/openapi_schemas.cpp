@@ -101,6 +101,29 @@ ordered_json polygon_schema() {
   return schema;
 }
 
+ordered_json mesh_schema() {
+  const auto rows = [](ordered_json entry, const char* description) {
+    entry = {{"type", "array"}, {"items", std::move(entry)}, {"minItems", 3}, {"maxItems", 3}};
+    return ordered_json{
+        {"type", "array"}, {"description", description}, {"items", std::move(entry)}, {"minItems", 1}};
+  };
+  ordered_json properties = {
+      {"type", {{"type", "string"}, {"enum", {"mesh"}}}},
+      {"vertices", rows({{"type", "number"}}, "[[x, y, z], ...]")},
+      {"faces", rows({{"type", "integer"}, {"minimum", 0}},
+                     "[[i, j, k], ...], indices of vertices, counted from 0; all the same way around")},
+      {"allow_self_intersections",
+       {{"type", "boolean"},
+        {"description", "faces may cross: distances go as if the sheets did not meet"},
+        {"default", false}}}};
+  ordered_json schema = closed(object(std::move(properties), {"type", "vertices", "faces"}));
+  schema["title"] = "mesh";
+  schema["description"] =
+      "The surface of a triangle mesh, closed or with border: points are [x, y, z] on it, distances go along "
+      "it.";
+  return schema;
+}
+
 ordered_json geojson_schema() {
   const ordered_json types = {"Polygon", "MultiPolygon", "Feature", "FeatureCollection"};
   ordered_json schema = object({{"type", {{"type", "string"}, {"enum", types}}}}, {"type"});
@@ -120,16 +143,17 @@ ordered_json domain_schema() {
         rectangle_schema("box", false,
                          "The same rectangle bounded along one axis or both, and closed there; points with "
                          "a coordinate that is exactly 0 or the side are on the boundary, and stay there."),
-        sphere_schema(), polygon_schema(), geojson_schema()}}};
+        sphere_schema(), polygon_schema(), mesh_schema(), geojson_schema()}}};
 }
 
 ordered_json points_schema() {
-  return {{"type", "array"},
-          {"description",
-           "[[x, y], ...]; on a sphere [[x, y, z], ...]; no two nearer to each other than 1e-10 of the "
-           "longest side "
-           "of the domain's box"},
-          {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}}}};
+  return {
+      {"type", "array"},
+      {"description",
+       "[[x, y], ...]; on a sphere or mesh [[x, y, z], ...]; no two nearer to each other than 1e-10 of the "
+       "longest side "
+       "of the domain's box"},
+      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 3}}}};
 }
 
 /// The fields of a method: its own parameters and the ones that all requests of its operation have.

@@ -13,6 +13,7 @@
 #include "proto/fields.h"
 #include "proto/find_row.h"
 #include "proto/formats/polygon.h"
+#include "proto/formats/surface_mesh.h"
 #include "proto/picture.h"
 #include "proto/source_reader.h"
 
@@ -194,6 +195,7 @@ std::shared_ptr<const Domain> read_domain(const json& value, const std::string& 
   Fields fields(value, pointer);
   const std::string type = fields.text("type").value_or("torus");
   if (type == "polygon" || is_geojson_type(type)) return read_polygon(value, pointer);
+  if (type == "mesh") return read_surface_mesh(value, pointer);
   try {
     if (type == "torus" || type == "box") return rectangle(fields, type == "torus");
     if (type == "sphere") return sphere(fields);
@@ -201,7 +203,7 @@ std::shared_ptr<const Domain> read_domain(const json& value, const std::string& 
     throw error.where().starts_with(pointer) && !pointer.empty() ? error : error.within(pointer);
   }
   throw Error(ErrorCode::invalid_parameters,
-              "unknown domain; there are: torus, box, sphere, polygon, and GeoJSON's types",
+              "unknown domain; there are: torus, box, sphere, polygon, mesh, and GeoJSON's types",
               fields.pointer_to("type"));
 }
 
@@ -209,6 +211,7 @@ nlohmann::ordered_json domain_to_json(const Domain& domain) {
   if (const auto* ball = dynamic_cast<const Sphere*>(&domain))
     return {{"type", ball->type()}, {"radius", ball->radius()}};
   if (const auto* polygon = dynamic_cast<const Polygon*>(&domain)) return polygon_to_json(*polygon);
+  if (const auto* mesh = dynamic_cast<const SurfaceMesh*>(&domain)) return surface_mesh_to_json(*mesh);
   const Box box = domain.box();
   nlohmann::ordered_json result = {{"type", domain.type()}, {"width", box.size.x}, {"height", box.size.y}};
   if (!is_torus(domain)) result["periodic"] = {box.periodic[0], box.periodic[1]};

@@ -30,7 +30,7 @@ class Crossings {
       throw Error(
           ErrorCode::too_large,
           "too many faces are so long, or in fans so wide, that most are in the others' boxes, to look for "
-          "pairs that cross; remesh the surface, or allow self-intersections",
+          "pairs that cross; remesh the surface, or set allow_self_intersections",
           "/faces");
     const std::array<std::uint32_t, 2> pair{std::min(a.info(), b.info()), std::max(a.info(), b.info())};
     if ((!first || pair < *first) && cross(mesh_.faces[pair[0]], mesh_.faces[pair[1]])) first = pair;

@@ -117,7 +117,8 @@ void check_edge(const TriangleMesh& mesh, std::span<const Side> sides) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(Triangles triangles, Crossings crossings) : triangles_(std::move(triangles)) {
+TriangleMesh::TriangleMesh(Triangles triangles, Crossings crossings)
+    : triangles_(std::move(triangles)), crossings_(crossings) {
   if (faces().empty() || faces().size() > most_faces)
     throw Error(ErrorCode::invalid_parameters,
                 faces().empty() ? "the mesh has no faces; a surface needs at least one"
@@ -133,8 +134,8 @@ TriangleMesh::TriangleMesh(Triangles triangles, Crossings crossings) : triangles
   if (crossings == Crossings::refuse) {
     if (const auto pair = first_crossing(triangles_))
       refuse_face((*pair)[1], "faces " + numbers(*pair) +
-                                  " cross; mend the mesh, or allow self-intersections, over which distances "
-                                  "go as if the sheets didn't meet");
+                                  " cross; mend the mesh, or set allow_self_intersections: distances then go "
+                                  "as if the sheets didn't meet");
   }
   find_components();
   find_borders();

@@ -81,6 +81,8 @@ class TriangleMesh {
   /// Half-edges without twin, loop after loop, each as its faces lead through it.
   const std::vector<std::vector<std::uint32_t>>& borders() const { return borders_; }
   const MeshFacts& facts() const { return facts_; }
+  /// As given to the constructor: whether faces that cross were looked for.
+  Crossings crossings() const { return crossings_; }
 
  private:
   void find_twins();
@@ -90,6 +92,7 @@ class TriangleMesh {
   void measure();
 
   Triangles triangles_;
+  Crossings crossings_;
   std::vector<std::uint32_t> twins_, first_out_, component_of_face_;
   std::vector<std::vector<std::uint32_t>> borders_;
   MeshFacts facts_;

@@ -157,7 +157,7 @@ TEST(TriangleMesh, StopsLookingForCrossingsWhereAllFacesAreInEachOthersBoxes) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::too_large);
     EXPECT_EQ(error.where(), "/faces");
-    EXPECT_THAT(error.what(), HasSubstr("allow self-intersections"));
+    EXPECT_THAT(error.what(), HasSubstr("allow_self_intersections"));
   }
   EXPECT_NO_THROW(TriangleMesh(disk, TriangleMesh::Crossings::allow));
 }

@@ -1,10 +1,14 @@
 // Every operation on every domain that requests can name.
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
 #include "core/analyze/spacing.h"
+#include "core/domain/sizing.h"
 #include "proto/execute.h"
+#include "proto/json_writer.h"
 #include "proto/result.h"
 #include "tests/support/proto_requests.h"
 #include "tests/support/refusals.h"
@@ -48,8 +52,92 @@ TEST(Domains, AreGeneratedOnOptimizedAndMeasured) {
   }
 }
 
+/// An octahedron, with unused vertex 6.
+const std::string octahedron_vertices = R"([[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1],[9,9,9]])";
+const std::string octahedron_faces = R"([[0,2,4],[2,1,4],[1,3,4],[3,0,4],[2,0,5],[1,2,5],[3,1,5],[0,3,5]])";
+const std::string octahedron =
+    R"({"type":"mesh","vertices":)" + octahedron_vertices + R"(,"faces":)" + octahedron_faces + "}";
+const std::string open_book =
+    R"({"type":"mesh","vertices":[[0,0,0],[0,1,0],[1,0.5,0],[0.5,0.5,1]],"faces":[[1,0,2],[0,1,3]],)"
+    R"("allow_self_intersections":true})";
+
+TEST(Domains, MayBeMeshes) {
+  for (const std::string& domain : {octahedron, open_book}) {
+    SCOPED_TRACE(domain);
+    const std::string generate = R"({"domain":)" + domain + R"(,"count":200,"seed":3})";
+    const Result made = run("generate", generate);
+    EXPECT_EQ(made.points().size(), 200u);
+    EXPECT_EQ(made.summary["domain"], nlohmann::ordered_json::parse(domain));
+    const auto summary =
+        run("optimize", R"({"points":{"generate":)" + generate + R"(},"beta":0.85})").summary;
+    EXPECT_EQ(summary["converged"], true);
+    EXPECT_LE(summary["beta"], 0.85);
+    EXPECT_EQ(summary["beta_upper"], nullptr);
+    const auto again =
+        run("analyze", R"({"points":)" + rows_to_json(made.points().coordinates.data(), 200, 3) +
+                           R"(,"domain":)" + domain + R"(,"measures":["spacing","certificate"]})")
+            .summary;
+    EXPECT_NEAR(again["spacing"]["beta"], summary["history"][0][1], 1e-12);
+  }
+}
+
+TEST(Domains, ThatAreMeshesTakePointsOnThem) {
+  const auto spacing =
+      run("analyze",
+          R"({"domain":)" + octahedron + R"(,"points":[[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1]]})")
+          .summary["spacing"];
+  EXPECT_NEAR(spacing["r_f"].get<double>(), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(spacing["r_c"].get<double>(), std::sqrt(2.0 / 3), 1e-12);  // the middles of faces
+}
+
+TEST(Domains, ThatAreMeshesTakeRadiiOfTheirVertices) {
+  const std::string sizing =
+      R"("sizing":{"type":"vertices","radii":[0.1,0.3,0.2,0.2,0.2,0.2,1]},"domain":)" + octahedron;
+  const Result made = run("generate", "{" + sizing + "}");
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < made.points().size(); ++i) ++(made.points()[i].x < 0 ? left : right);
+  EXPECT_GT(right, 2 * left);
+  const Result back = load_result(store_result(made));
+  EXPECT_EQ(back.points().sizing->at({-1, 0, 0}), 0.3);
+  EXPECT_EQ(store_result(back), store_result(made));
+}
+
+TEST(Domains, ThatAreBadMeshesAreRefusedWithTheCulprit) {
+  const auto generate = [](const std::string& members) {
+    return R"({"count":10,"domain":{"type":"mesh",)" + members + "}}";
+  };
+  const std::string corners = R"("vertices":[[0,0,0],[1,0,0],[0,1,0],[1,1,0]])";
+  expect_refusals({
+      {"generate", generate(corners), invalid, "/domain/faces", "missing"},
+      {"generate", generate(R"("faces":[[0,1,2]])"), invalid, "/domain/vertices", "missing"},
+      {"generate", generate(corners + R"(,"faces":[])"), invalid, "/domain/faces", "at least one"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,2],[0,1]])"), invalid, "/domain/faces/1", "three"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,-2]])"), invalid, "/domain/faces/0/2", "index"},
+      {"generate", generate(corners + R"(,"faces":[[0,1.5,2]])"), invalid, "/domain/faces/0/1", "index"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,5000000000]])"), invalid, "/domain/faces/0/2",
+       "index"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,4]])"), invalid, "/domain/faces/0", "vertex 4"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,2],[1,2,3]])"), invalid, "/domain/faces/1", "0"},
+      {"generate", generate(R"("vertices":[[0,0,0],[1,"a",0]],"faces":[[0,1,2]])"), invalid,
+       "/domain/vertices/1/1", "a number"},
+      {"generate", generate(R"("vertices":7,"faces":[[0,1,2]])"), invalid, "/domain/vertices", "an array"},
+      {"generate", generate(corners + R"(,"faces":[[0,1,2]],"alow":true)"), invalid, "/domain/alow",
+       "allow_self_intersections"},
+      {"generate",
+       generate(R"("vertices":[[0,0,0],[1,0,0],[0,1,0],[0.2,0.2,-1],[0.2,0.2,1],[2,2,0]],)"
+                R"("faces":[[0,1,2],[3,4,5]])"),
+       invalid, "/domain/faces/1", "allow_self_intersections"},
+      {"analyze", R"({"points":[[1,0,0],[0,1,0],[0,0,0]],"domain":)" + octahedron + "}", invalid, "/points/2",
+       "surface"},
+      {"analyze", R"({"points":[[1,0],[0,1],[0,0]],"domain":)" + octahedron + "}", invalid, "/points",
+       "3 coordinates"},
+  });
+}
+
 TEST(Domains, OfKeptResultsComeBackAsTheyWere) {
-  for (const std::string& domain : all_domains) {
+  std::vector<std::string> kept = all_domains;
+  kept.insert(kept.end(), {octahedron, open_book});
+  for (const std::string& domain : kept) {
     SCOPED_TRACE(domain);
     const Result made = run("generate", R"({"domain":)" + domain + R"(,"count":40})");
     const std::string bytes = store_result(made);
