@@ -18,6 +18,7 @@ enum class ErrorCode {
   not_acceptable,
   not_found,
   no_such_job,
+  no_such_domain,
   result_not_ready,
   result_expired,
   conflict,

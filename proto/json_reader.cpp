@@ -45,8 +45,9 @@ std::string pointer_segment(std::string_view key) {
 /// Hears the parser's events and builds the document: the tree as usual, the table without a tree.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
-  Builder(Source& source, std::span<const std::string_view> table_places, std::size_t row_limit)
-      : source_(source), row_limit_(row_limit) {
+  Builder(Source& source, std::span<const std::string_view> table_places, std::size_t row_limit,
+          std::size_t value_limit)
+      : source_(source), row_limit_(row_limit), value_limit_(value_limit) {
     for (const std::string_view place : table_places) places_.push_back(split(place));
   }
 
@@ -145,8 +146,8 @@ class Builder final : public nlohmann::json_sax<Json> {
 
   /// Puts a value where the parser is; its address is good while it is open.
   Json* add(Json value) {
-    if (++values_ > JsonLimits::values) {
-      refuse("the document has more than " + std::to_string(JsonLimits::values) +
+    if (++values_ > value_limit_) {
+      refuse("the document has more than " + std::to_string(value_limit_) +
              " values besides its points; send fewer, or large data as a file of its own");
     }
     if (levels_.empty()) return &(document_.root = std::move(value));
@@ -262,7 +263,8 @@ class Builder final : public nlohmann::json_sax<Json> {
 
   Source& source_;
   std::vector<std::vector<std::string>> places_;
-  std::size_t row_limit_, rows_before_ = 0;  ///< of the tables before this one
+  std::size_t row_limit_, value_limit_;
+  std::size_t rows_before_ = 0;  ///< of the tables before this one
   JsonDocument document_;
   std::vector<Level> levels_;
   std::size_t values_ = 0;
@@ -274,13 +276,13 @@ class Builder final : public nlohmann::json_sax<Json> {
 }  // namespace
 
 JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_places,
-                       std::size_t row_limit) {
+                       std::size_t row_limit, std::size_t value_limit) {
   // To the library a NUL is the end of the text, whatever follows.
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
     throw malformed_json(text, nul, "there is a NUL byte; write \\u0000 if it belongs to a string");
   }
   Source source(text);
-  Builder builder(source, table_places, row_limit);
+  Builder builder(source, table_places, row_limit, value_limit);
   Json::sax_parse(SourceIterator(source), SourceIterator(), &builder);
   return builder.take();
 }

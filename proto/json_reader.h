@@ -53,6 +53,6 @@ struct JsonDocument {
 /// 3. too_large: more than `row_limit` points in all; a string or number of more than 1 MiB.
 /// Cost: linear; points by-pass the library's lexer, which is several times slower.
 JsonDocument read_json(std::string_view text, std::span<const std::string_view> table_places,
-                       std::size_t row_limit);
+                       std::size_t row_limit, std::size_t value_limit = JsonLimits::values);
 
 }  // namespace wellspaced

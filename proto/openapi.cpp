@@ -25,7 +25,7 @@ struct StatusText {
 
 constexpr StatusText problem_statuses[] = {
     {400, "malformed-request: the bytes can't be read"},
-    {404, "not-found, no-such-job, or result-not-ready (with Retry-After)"},
+    {404, "not-found, no-such-job, no-such-domain, or result-not-ready (with Retry-After)"},
     {406, "not-acceptable: none of the accepted formats is available"},
     {408, "request-timeout"},
     {409, "conflict or cancelled"},
@@ -318,6 +318,53 @@ ordered_json job_paths() {
   return paths;
 }
 
+ordered_json domain_paths() {
+  const ordered_json id = parameter("id", "path", "of the domain", {{"type", "string"}});
+  const ordered_json domain = json_content(schema_reference("UploadedDomain"));
+  ordered_json content;
+  for (const char* type : {"application/geo+json", "application/json"})
+    content[type] = {{"schema", {{"type", "object"}}}};
+  for (const char* type : {"text/wkt", "model/off", "model/obj", "model/ply", "application/octet-stream"})
+    content[type] = {{"schema", {{"type", "string"}}}};
+  ordered_json post = {
+      {"operationId", "postDomain"},
+      {"tags", {"domains"}},
+      {"summary", "Keep a polygon or surface mesh, to be referred to by its id"},
+      {"description",
+       "The id is the SHA-256 of the bytes. Kept as long as a result, and as long as a live job or a kept "
+       "result lies on it."},
+      {"parameters",
+       {parameter("format", "query", "wins over Content-Type; general types are told apart by first bytes",
+                  {{"type", "string"}, {"enum", {"geojson", "json", "wkt", "off", "obj", "ply"}}}),
+        parameter("allow_self_intersections", "query", "of meshes: faces may cross", {{"type", "boolean"}})}},
+      {"requestBody", {{"required", true}, {"content", std::move(content)}}},
+      {"responses",
+       {{"200", {{"description", "It was there already"}, {"content", domain}}},
+        {"201",
+         {{"description", "Kept"},
+          {"headers", {{"Location", header("the domain")}}},
+          {"content", domain}}}}}};
+  post["responses"].update(problems({411, 413, 415, 422, 500, 507}));
+  ordered_json remove = {{"operationId", "deleteDomain"},
+                         {"tags", {"domains"}},
+                         {"summary", "Delete a domain that no live job and no kept result lies on"},
+                         {"parameters", {id}},
+                         {"responses", {{"204", {{"description", "Deleted"}}}}}};
+  remove["responses"].update(problems({404, 409, 503}));
+  ordered_json paths;
+  paths["/v1/domains"] = {
+      {"post", std::move(post)},
+      {"get", get("listDomains", "domains", "List domains, by id",
+                  json_content(schema_reference("DomainList")), {422},
+                  {parameter("limit", "query", "domains a page",
+                             {{"type", "integer"}, {"minimum", 1}, {"maximum", 500}, {"default", 50}}),
+                   parameter("cursor", "query", "from Link: rel=next", {{"type", "string"}})})}};
+  paths["/v1/domains/{id}"] = {
+      {"get", get("getDomain", "domains", "What a domain is", domain, {404, 503}, {id})},
+      {"delete", std::move(remove)}};
+  return paths;
+}
+
 ordered_json service_paths() {
   const ordered_json any = {{"type", "object"}};
   ordered_json paths;
@@ -344,6 +391,7 @@ ordered_json openapi_json(const Limits& limits) {
   paths["/v1/generate"] = operation_path("generate", "Make a point set");
   paths["/v1/optimize"] = operation_path("optimize", "Make a point set well spaced");
   paths["/v1/analyze"] = operation_path("analyze", "Measure a point set");
+  paths.update(domain_paths());
   paths.update(job_paths());
   paths.update(service_paths());
   ordered_json responses;
@@ -367,6 +415,7 @@ ordered_json openapi_json(const Limits& limits) {
       {"security", ordered_json::array()},
       {"tags",
        {{{"name", "operations"}, {"description", "The work"}},
+        {{"name", "domains"}, {"description", "Polygons and meshes that are kept"}},
         {{"name", "jobs"}, {"description", "Work that is waited for elsewhere"}},
         {{"name", "service"}, {"description", "The service itself"}}}},
       {"paths", std::move(paths)},

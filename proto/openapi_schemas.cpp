@@ -124,6 +124,47 @@ ordered_json mesh_schema() {
   return schema;
 }
 
+ordered_json uploaded_schema() {
+  ordered_json schema = closed(object({{"type", {{"type", "string"}, {"enum", {"polygon", "mesh"}}}},
+                                       {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}},
+                                      {"type", "id"}));
+  schema["title"] = "uploaded";
+  schema["description"] = "A domain that POST /v1/domains keeps.";
+  return schema;
+}
+
+/// What is told of one.
+ordered_json uploaded_domain_schema() {
+  const ordered_json text = {{"type", "string"}}, number = {{"type", "number"}},
+                     count = {{"type", "integer"}}, corner = {{"type", "array"}, {"items", number}};
+  return object({{"id", text},
+                 {"format", text},
+                 {"bytes", count},
+                 {"created", text},
+                 {"expires", text},
+                 {"allow_self_intersections", {{"type", "boolean"}}},
+                 {"type", {{"type", "string"}, {"enum", {"polygon", "mesh"}}}},
+                 {"area", number},
+                 {"boundary_length", number},
+                 {"vertices", count},
+                 {"unused_vertices", count},
+                 {"edges", count},
+                 {"faces", count},
+                 {"holes", count},
+                 {"components", count},
+                 {"boundaries", count},
+                 {"euler_characteristic", count},
+                 {"genus", count},
+                 {"closed", {{"type", "boolean"}}},
+                 {"volume", {{"type", {"number", "null"}}}},
+                 {"box", object({{"min", corner}, {"max", corner}}, {"min", "max"})},
+                 {"smallest_feature",
+                  {{"type", {"object", "null"}},
+                   {"description", "how fine the finest detail is, and where; an estimate on meshes"},
+                   {"properties", {{"length", number}, {"description", text}}}}}},
+                {"id", "format", "bytes", "created", "expires", "type", "area"});
+}
+
 ordered_json geojson_schema() {
   const ordered_json types = {"Polygon", "MultiPolygon", "Feature", "FeatureCollection"};
   ordered_json schema = object({{"type", {{"type", "string"}, {"enum", types}}}}, {"type"});
@@ -143,7 +184,7 @@ ordered_json domain_schema() {
         rectangle_schema("box", false,
                          "The same rectangle bounded along one axis or both, and closed there; points with "
                          "a coordinate that is exactly 0 or the side are on the boundary, and stay there."),
-        sphere_schema(), polygon_schema(), mesh_schema(), geojson_schema()}}};
+        sphere_schema(), polygon_schema(), mesh_schema(), uploaded_schema(), geojson_schema()}}};
 }
 
 ordered_json points_schema() {
@@ -415,6 +456,9 @@ ordered_json openapi_schemas() {
   add_analysis(schemas);
   schemas["Job"] = job_schema();
   schemas["JobList"] = object({{"jobs", {{"type", "array"}, {"items", schema_reference("Job")}}}}, {"jobs"});
+  schemas["UploadedDomain"] = uploaded_domain_schema();
+  schemas["DomainList"] =
+      object({{"domains", {{"type", "array"}, {"items", schema_reference("UploadedDomain")}}}}, {"domains"});
   schemas["Problem"] = problem_schema();
   return schemas;
 }

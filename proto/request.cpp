@@ -16,6 +16,7 @@
 #include "proto/formats/surface_mesh.h"
 #include "proto/picture.h"
 #include "proto/source_reader.h"
+#include "proto/stored_domain.h"
 
 namespace wellspaced {
 namespace {
@@ -189,11 +190,35 @@ std::shared_ptr<const Domain> sphere(Fields& fields) {
   return std::make_shared<Sphere>(radius);
 }
 
+/// {"type": "mesh", "id": "..."}
+std::shared_ptr<const Domain> uploaded(Fields& fields, const std::string& type, const DomainById& find) {
+  const std::string id = *fields.text("id"), where = fields.pointer_to("id");
+  fields.refuse_unknown();
+  if (!is_content_id(id))
+    throw Error(ErrorCode::invalid_parameters,
+                "expected 64 hexadecimal digits in lower case, as POST /v1/domains answers with", where);
+  if (!find) throw Error(ErrorCode::no_such_domain, "nothing is uploaded here; give the domain whole", where);
+  std::shared_ptr<const Domain> domain;
+  try {
+    domain = find(id);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.what(), where);
+  }
+  if (domain->type() != type)
+    throw Error(ErrorCode::invalid_parameters,
+                "the domain with this id is a " + std::string(domain->type()) + "; say so",
+                fields.pointer_to("type"));
+  return domain;
+}
+
 }  // namespace
 
-std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer) {
+std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer,
+                                          const DomainById& find) {
   Fields fields(value, pointer);
   const std::string type = fields.text("type").value_or("torus");
+  if ((type == "polygon" || type == "mesh") && fields.find("id") != nullptr)
+    return uploaded(fields, type, find);
   if (type == "polygon" || is_geojson_type(type)) return read_polygon(value, pointer);
   if (type == "mesh") return read_surface_mesh(value, pointer);
   try {
@@ -208,6 +233,8 @@ std::shared_ptr<const Domain> read_domain(const json& value, const std::string& 
 }
 
 nlohmann::ordered_json domain_to_json(const Domain& domain) {
+  if (const auto* known = dynamic_cast<const HasId*>(&domain))
+    return {{"type", domain.type()}, {"id", known->id()}};
   if (const auto* ball = dynamic_cast<const Sphere*>(&domain))
     return {{"type", ball->type()}, {"radius", ball->radius()}};
   if (const auto* polygon = dynamic_cast<const Polygon*>(&domain)) return polygon_to_json(*polygon);
@@ -218,9 +245,9 @@ nlohmann::ordered_json domain_to_json(const Domain& domain) {
   return result;
 }
 
-Request read_request(const RawRequest& raw, const Limits& limits, const JobPoints& job_points) {
+Request read_request(const RawRequest& raw, const Limits& limits, const References& references) {
   JsonDocument document = read_document(raw, limits);
-  SourceReader reader(document, point_limit(raw.operation, limits), job_points);
+  SourceReader reader(document, point_limit(raw.operation, limits), references);
   Fields fields(document.root, "");
   Request request;
   const json* picture = fields.find("picture");

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -12,6 +11,7 @@
 #include "proto/document.h"
 #include "proto/limits.h"
 #include "proto/measures/measures.h"
+#include "proto/references.h"
 #include "proto/sizing.h"
 
 namespace wellspaced {
@@ -77,16 +77,13 @@ struct Request {
   nlohmann::json picture;  ///< that is asked for, as read_picture takes it; null if there is none
 };
 
-/// Finds the points of an earlier job's result. Errors: no_such_job, result_not_ready, ...
-using JobPoints = std::function<PointSet(const std::string& id)>;
-
 /// Reads and validates a whole request, before any work: JSON, or points as npy or csv with everything else
 /// in the query.
 ///
 /// Errors: unsupported_media_type; malformed_request; invalid_parameters, infeasible, degenerate_input,
-/// too_large, each with the pointer of the field; whatever `job_points` throws, at /points/job. Cost: linear
-/// in the body, O(n log n) in inline points.
-Request read_request(const RawRequest& raw, const Limits& limits, const JobPoints& job_points);
+/// too_large, each with the pointer of the field; whatever `references` throw, at /points/job and
+/// /domain/id. Cost: linear in the body, O(n log n) in inline points.
+Request read_request(const RawRequest& raw, const Limits& limits, const References& references);
 
 /// How many points the request works on, about; the most that there can be where holes are filled.
 double expected_points(const Request& request);
@@ -107,8 +104,9 @@ void require_affordable(const Request& request, const Limits& limits);
 /// JSON pointer of the field that decides how many points a request is about.
 std::string size_field(const Request& request);
 
-/// The domain as requests and results write it.
-std::shared_ptr<const Domain> read_domain(const nlohmann::json& value, const std::string& pointer);
+/// The domain as requests and results write it; one that was uploaded by its id, which `find` knows.
+std::shared_ptr<const Domain> read_domain(const nlohmann::json& value, const std::string& pointer,
+                                          const DomainById& find = {});
 nlohmann::ordered_json domain_to_json(const Domain& domain);
 
 }  // namespace wellspaced

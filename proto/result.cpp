@@ -70,10 +70,10 @@ ordered_json groups_of(const ordered_json& head, std::string_view data) {
   return {{{"label", ""}, {"domain", head.at("domain")}, {"sizes", {size}}}};
 }
 
-Result load(const ordered_json& head, std::string_view data) {
+Result load(const ordered_json& head, std::string_view data, const DomainById& find) {
   Result result{head.at("operation"), head.at("summary"), {}, head.at("picture")};
   for (const ordered_json& group : groups_of(head, data)) {
-    const auto domain = read_domain(nlohmann::json(group.at("domain")), "");
+    const auto domain = read_domain(nlohmann::json(group.at("domain")), "", find);
     result.groups.push_back({group.at("label"), load_sets(domain, group.at("sizes"), data)});
     if (!group.contains("sizing") || group["sizing"].is_null()) continue;
     const auto sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
@@ -138,15 +138,16 @@ std::string store_result(const Result& result) {
   return bytes;
 }
 
-Result load_result(std::string_view bytes) {
+Result load_result(std::string_view bytes, const DomainById& find) {
   const auto line = bytes.find('\n');
   if (line == std::string_view::npos) throw unreadable();
   try {
-    return load(ordered_json::parse(bytes.substr(0, line)), bytes.substr(line + 1));
+    return load(ordered_json::parse(bytes.substr(0, line)), bytes.substr(line + 1), find);
   } catch (const ordered_json::exception&) {
     throw unreadable();
-  } catch (const Error&) {
-    throw unreadable();
+  } catch (const Error& error) {
+    const bool gone = error.code() == ErrorCode::no_such_domain;  // which find, not the bytes, tells
+    throw gone || error.code() == ErrorCode::storage_unavailable ? error : unreadable();
   }
 }
 

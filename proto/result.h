@@ -12,6 +12,7 @@
 #include "core/point_set.h"
 #include "proto/formats/media.h"
 #include "proto/limits.h"
+#include "proto/references.h"
 #include "proto/sizing.h"
 
 namespace wellspaced {
@@ -43,9 +44,10 @@ const PointSet& only_points(const Result& result);
 /// What the program's version is; part of every summary.
 std::string_view version();
 
-/// The bytes in which a result is kept, and back. Errors of read: internal if they aren't such bytes.
+/// The bytes in which a result is kept, and back; domains that were uploaded are kept as their ids, which
+/// `find` knows. Errors of load: internal if they aren't such bytes; whatever `find` throws.
 std::string store_result(const Result& result);
-Result load_result(std::string_view bytes);
+Result load_result(std::string_view bytes, const DomainById& find = {});
 
 /// The formats a result of that operation can be had in, the default one first.
 std::span<const Format> formats_of(std::string_view operation);

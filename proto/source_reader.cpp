@@ -15,11 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-std::shared_ptr<const Domain> domain_field(Fields& fields) {
-  const json* value = fields.find("domain");
-  return value != nullptr ? read_domain(*value, fields.pointer_to("domain")) : nullptr;
-}
-
 std::shared_ptr<const Sizing> sizing_field(Fields& fields, const Domain& domain) {
   const json* value = fields.find("sizing");
   return value != nullptr ? read_sizing(*value, domain, fields.pointer_to("sizing")) : nullptr;
@@ -86,9 +81,14 @@ void require_three(const PointSource& source) {
 
 }  // namespace
 
-SourceReader::SourceReader(JsonDocument& document, std::uint64_t most_points, const JobPoints& job_points)
-    : most_points_(most_points), job_points_(job_points) {
+SourceReader::SourceReader(JsonDocument& document, std::uint64_t most_points, const References& references)
+    : most_points_(most_points), references_(references) {
   for (JsonTable& table : document.tables) tables_[table.pointer] = std::move(table.table);
+}
+
+std::shared_ptr<const Domain> SourceReader::domain_field(Fields& fields) const {
+  const json* value = fields.find("domain");
+  return value != nullptr ? read_domain(*value, fields.pointer_to("domain"), references_.domain) : nullptr;
 }
 
 GenerateRequest SourceReader::generate(Fields& fields) const {
@@ -158,7 +158,7 @@ PointSet SourceReader::job_points(Fields& fields) const {
   const std::string id = *fields.text("job");
   fields.refuse_unknown();
   try {
-    return job_points_(id);
+    return references_.job_points(id);
   } catch (const Error& error) {
     throw Error(error.code(), error.what(), fields.pointer_to("job"));
   }

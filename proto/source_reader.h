@@ -20,7 +20,7 @@ namespace wellspaced {
 class SourceReader {
  public:
   /// `most_points`: that a source may have; everything is kept by reference.
-  SourceReader(JsonDocument& document, std::uint64_t most_points, const JobPoints& job_points);
+  SourceReader(JsonDocument& document, std::uint64_t most_points, const References& references);
 
   GenerateRequest generate(Fields& fields) const;
   OptimizeRequest optimize(Fields& fields);
@@ -31,6 +31,7 @@ class SourceReader {
   SourceGroup group(Fields& fields);
 
  private:
+  std::shared_ptr<const Domain> domain_field(Fields& fields) const;
   SourceGroup sets(Fields& fields);
   PointSet inline_points(std::shared_ptr<const Domain> domain, const std::string& pointer);
   PointSet job_points(Fields& fields) const;
@@ -39,7 +40,7 @@ class SourceReader {
   PointSource object(const nlohmann::json& value, const std::string& pointer);
 
   std::uint64_t most_points_;
-  const JobPoints& job_points_;
+  const References& references_;
   std::map<std::string, Table> tables_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/control.h"
 #include "server/config.h"
+#include "server/domain_cache.h"
 #include "server/jobs/job_store.h"
 #include "server/jobs/worker_pool.h"
 #include "server/metrics.h"
@@ -23,6 +24,7 @@ struct Context {
   std::function<void()> wake{};            ///< asks waiting responses whether they are ready
   std::atomic<bool> draining = false;      ///< no new work is taken
   std::atomic<std::uint64_t> changes = 0;  ///< grows whenever some job's state or events may have changed
+  DomainCache domains{store};
 };
 
 }  // namespace wellspaced

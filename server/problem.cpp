@@ -37,6 +37,8 @@ Kind kind_of(ErrorCode code) {
       return {404, "not-found", "There is nothing here"};
     case ErrorCode::no_such_job:
       return {404, "no-such-job", "There is no such job"};
+    case ErrorCode::no_such_domain:
+      return {404, "no-such-domain", "There is no such domain"};
     case ErrorCode::result_not_ready:
       return {404, "result-not-ready", "The job has no result yet", "1"};
     case ErrorCode::result_expired:

@@ -1,5 +1,6 @@
 #include "server/routes.h"
 
+#include "server/handlers/domains.h"
 #include "server/handlers/jobs.h"
 #include "server/handlers/operations.h"
 #include "server/handlers/service.h"
@@ -21,6 +22,10 @@ std::vector<http::Route> routes(Context& context) {
       {"POST", "/v1/analyze", operation("analyze")},
       {"GET", "/v1/operations", bind(get_operations)},
       {"GET", "/v1/operations/{operation}", bind(get_operation)},
+      {"POST", "/v1/domains", bind(post_domain)},
+      {"GET", "/v1/domains", bind(list_domains)},
+      {"GET", "/v1/domains/{id}", bind(get_domain)},
+      {"DELETE", "/v1/domains/{id}", bind(delete_domain)},
       {"GET", "/v1/jobs", bind(list_jobs)},
       {"GET", "/v1/jobs/{id}", bind(get_job)},
       {"DELETE", "/v1/jobs/{id}", bind(delete_job)},

@@ -79,12 +79,16 @@ std::string encoded_result(const Invocation& i, Format format, const std::string
   auto query = read_query(i);
   if (!i.picture.empty()) query.emplace_back("picture", i.picture);
   const std::string content_type = content_type_of(i);
-  const JobPoints no_jobs = [](const std::string&) -> PointSet {
+  References references;
+  references.job_points = [](const std::string&) -> PointSet {
     throw Error(ErrorCode::no_such_job,
                 "wellspaced run knows no jobs; save the job's points and give them as npy or csv");
   };
+  references.domain = [](const std::string&) -> std::shared_ptr<const Domain> {
+    throw Error(ErrorCode::no_such_domain, "wellspaced run knows no uploaded domains; give the domain whole");
+  };
   const Request request =
-      read_request(raw_request(i.operation, content_type, body, query), i.config.limits, no_jobs);
+      read_request(raw_request(i.operation, content_type, body, query), i.config.limits, references);
   Control control(i.config.threads);
   if (is_picture(format)) {
     PictureCall call = read_picture(request.picture, "/picture");

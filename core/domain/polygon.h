@@ -29,7 +29,7 @@ struct PolygonFeature {
 /// edges that double precision can't tell from each other, and so many edges beside each other that grids of
 /// squares don't help.
 /// Cost: O(n log n) for n edges; a query O(1), or of the edges near.
-class Polygon final : public Domain {
+class Polygon : public Domain {
  public:
   /// The outer ring, then the holes; of either orientation. The last vertex of a ring may repeat the first.
   explicit Polygon(const std::vector<std::vector<Vec2>>& rings);

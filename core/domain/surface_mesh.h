@@ -35,7 +35,7 @@ namespace wellspaced {
 /// Cost: to find a point .1 us, among 10^5 faces .2; a step .2 us, and 10 ns a face on the way;
 /// `localize`, a neighbor, .6 us at half a face a neighbor, 4 us at 9 faces, 20 us at 45; `distance` 5 to 15
 /// ms across 10^4 faces, seconds across 10^6. Thread safety: immutable after construction.
-class SurfaceMesh final : public Domain {
+class SurfaceMesh : public Domain {
  public:
   explicit SurfaceMesh(TriangleMesh mesh);
   SurfaceMesh(const SurfaceMesh&) = delete;  // its parts point to each other

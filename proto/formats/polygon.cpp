@@ -133,8 +133,12 @@ PolygonText read_geojson(const json& value, const std::string& pointer) {
   return read_geojson(features[0], pointer + "/features/0");
 }
 
+PolygonText read_polygon_text(const json& value, const std::string& pointer) {
+  return read_source(value, pointer);
+}
+
 std::shared_ptr<const Polygon> read_polygon(const json& value, const std::string& pointer) {
-  const PolygonText text = read_source(value, pointer);
+  const PolygonText text = read_polygon_text(value, pointer);
   try {
     return std::make_shared<const Polygon>(text.rings);
   } catch (const Error& error) {

@@ -40,6 +40,9 @@ PolygonText read_geojson(const nlohmann::json& value, const std::string& pointer
 /// too.
 PolygonText read_wkt(std::string_view text, const std::string& pointer);
 
+/// {"type": "polygon"} with one of rings, geojson and wkt, or a GeoJSON object: its rings, unchecked.
+PolygonText read_polygon_text(const nlohmann::json& value, const std::string& pointer);
+
 /// {"type": "polygon"} with one of rings, geojson and wkt; or a GeoJSON object.
 /// Errors: those of the readers and of Polygon, each at its place.
 std::shared_ptr<const Polygon> read_polygon(const nlohmann::json& value, const std::string& pointer);

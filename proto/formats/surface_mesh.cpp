@@ -50,20 +50,23 @@ std::uint32_t read_index(const json& value, const std::string& where) {
 
 }  // namespace
 
-std::shared_ptr<const SurfaceMesh> read_surface_mesh(const json& value, const std::string& pointer) {
+SurfaceMeshText read_surface_mesh_text(const json& value, const std::string& pointer) {
   Fields fields(value, pointer);
   fields.find("type");
   const json& vertices = fields.require("vertices", "[[x, y, z], ...]");
   const json& faces = fields.require("faces", "[[i, j, k], ...], indices of vertices, counted from 0");
   const bool allow = fields.flag("allow_self_intersections").value_or(false);
   fields.refuse_unknown();
-  Triangles triangles{
-      read_rows<Vec3>(vertices, "vertices, [x, y, z]", fields.pointer_to("vertices"), read_coordinate),
-      read_rows<std::array<std::uint32_t, 3>>(faces, "faces, [i, j, k]", fields.pointer_to("faces"),
-                                              read_index)};
+  return {{read_rows<Vec3>(vertices, "vertices, [x, y, z]", fields.pointer_to("vertices"), read_coordinate),
+           read_rows<std::array<std::uint32_t, 3>>(faces, "faces, [i, j, k]", fields.pointer_to("faces"),
+                                                   read_index)},
+          allow ? TriangleMesh::Crossings::allow : TriangleMesh::Crossings::refuse};
+}
+
+std::shared_ptr<const SurfaceMesh> read_surface_mesh(const json& value, const std::string& pointer) {
+  SurfaceMeshText text = read_surface_mesh_text(value, pointer);
   try {
-    return std::make_shared<const SurfaceMesh>(TriangleMesh(
-        std::move(triangles), allow ? TriangleMesh::Crossings::allow : TriangleMesh::Crossings::refuse));
+    return std::make_shared<const SurfaceMesh>(TriangleMesh(std::move(text.triangles), text.crossings));
   } catch (const Error& error) {
     throw error.within(pointer);
   }

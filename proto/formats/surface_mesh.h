@@ -9,6 +9,15 @@
 
 namespace wellspaced {
 
+/// A mesh as a request brings it, before the domain has looked at it.
+struct SurfaceMeshText {
+  Triangles triangles;
+  TriangleMesh::Crossings crossings = TriangleMesh::Crossings::refuse;
+};
+
+/// The same as read_surface_mesh, unchecked.
+SurfaceMeshText read_surface_mesh_text(const nlohmann::json& value, const std::string& pointer);
+
 /// {"type": "mesh", "vertices": [[x, y, z], ...], "faces": [[i, j, k], ...]}, and "allow_self_intersections".
 /// Errors: invalid_parameters at the first value that is not what it should be; those of TriangleMesh, at the
 /// face or vertex.

@@ -21,16 +21,6 @@ using nlohmann::ordered_json;
 
 constexpr int longest_wait_seconds = 60;
 
-std::string timestamp(std::int64_t ms) {
-  const std::time_t seconds = ms / 1000;
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char text[40];
-  const std::size_t n = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
-  const std::string millis = std::to_string(1000 + ms % 1000).substr(1);
-  return std::string(text, n) + "." + millis + "Z";
-}
-
 ordered_json optional_time(const std::optional<std::int64_t>& ms) {
   return ms ? ordered_json(timestamp(*ms)) : ordered_json();
 }
@@ -83,6 +73,18 @@ Encoded encode(Context& context, const Result& result, const Wanted& wanted) {
 }
 
 }  // namespace
+
+std::string timestamp(std::int64_t ms) {
+  const std::time_t seconds = ms / 1000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char text[40];
+  const std::size_t n = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
+  const std::string millis = std::to_string(1000 + ms % 1000).substr(1);
+  return std::string(text, n) + "." + millis + "Z";
+}
+
+std::string owner_of(const http::Request&) { return ""; }
 
 std::string query_value(const http::Request& request, const std::string& name) {
   std::optional<std::string> found;
@@ -143,7 +145,8 @@ http::Response result_response(Context& context, const Job& job, const Wanted& w
   if (job.status == JobStatus::dismissed)
     throw Error(ErrorCode::cancelled,
                 "the job was cancelled before it had a result; submit the request again");
-  Encoded encoded = encode(context, load_result(context.store.result(job.id)), wanted);
+  const DomainById find_domain = [&](const std::string& id) { return context.domains.get(job.owner, id); };
+  Encoded encoded = encode(context, load_result(context.store.result(job.id), find_domain), wanted);
   http::Response response;
   response.body = std::move(encoded.bytes);
   response.set("Content-Type", encoded.media_type)

@@ -41,6 +41,10 @@ http::Response result_response(Context& context, const Job& job, const Wanted& w
 
 /// A job's status as JSON, with links.
 std::string job_to_json(const Job& job);
+/// 2026-01-31T12:00:00.000Z
+std::string timestamp(std::int64_t ms);
+/// Whose jobs and domains a request is about: "" while there is no authentication.
+std::string owner_of(const http::Request& request);
 http::Response json_response(std::string text, int status = 200);
 
 }  // namespace wellspaced

@@ -1,5 +1,7 @@
 #include "server/handlers/operations.h"
 
+#include <set>
+
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -23,8 +25,23 @@ Query request_query(const http::Request& request) {
   return query;
 }
 
-JobPoints points_of_jobs(Context& context) {
-  return [&context](const std::string& id) { return only_points(load_result(context.store.result(id))); };
+/// What the store has; notes what was asked for, if somebody wants to know.
+struct Needs {
+  std::string job;
+  std::set<std::string> domains;
+};
+
+References references_of(Context& context, const std::string& owner, Needs* needs = nullptr) {
+  References references;
+  references.domain = [&context, owner, needs](const std::string& id) {
+    if (needs != nullptr) needs->domains.insert(id);
+    return context.domains.get(owner, id);
+  };
+  references.job_points = [&context, needs, find = references.domain](const std::string& id) {
+    if (needs != nullptr) needs->job = id;
+    return only_points(load_result(context.store.result(id), find));
+  };
+  return references;
 }
 
 void require_sync(const Request& request, const Limits& limits) {
@@ -39,12 +56,14 @@ void require_sync(const Request& request, const Limits& limits) {
 }
 
 JobSpec make_spec(const std::string& operation, const http::Request& request, const Query& query,
-                  const std::string& needs, bool attached) {
+                  const Needs& needs, bool attached) {
   JobSpec spec;
   spec.operation = operation;
   spec.content_type = request.header("Content-Type");
   spec.query = json(query).dump();
-  spec.needs = needs;
+  spec.owner = owner_of(request);
+  spec.needs = needs.job;
+  spec.domains.assign(needs.domains.begin(), needs.domains.end());
   spec.request = request.body;
   spec.trace = request.header("traceparent");
   spec.attached = attached;
@@ -100,12 +119,9 @@ http::Response post_operation(Context& context, const std::string& operation,
     const Query query = request_query(http_request);
     const RawRequest raw =
         raw_request(operation, http_request.header("Content-Type"), http_request.body, query);
-    std::string needs;
-    const JobPoints job_points = [&](const std::string& id) {
-      needs = id;
-      return points_of_jobs(context)(id);
-    };
-    const Request request = read_request(raw, context.config.limits, job_points);
+    Needs needs;
+    const Request request =
+        read_request(raw, context.config.limits, references_of(context, owner_of(http_request), &needs));
     wanted.picture = nullptr;  // the request holds it
     if (is_picture(wanted.format)) {
       PictureCall call = read_picture(request.picture, "/picture");
@@ -134,7 +150,8 @@ std::string run_job(Context& context, const Claim& claim, Control& control) {
   const Query query = json::parse(claim.spec.query).get<Query>();
   const RawRequest raw =
       raw_request(claim.spec.operation, claim.spec.content_type, claim.spec.request, query);
-  const Result result = execute(read_request(raw, context.config.limits, points_of_jobs(context)), control);
+  const Result result =
+      execute(read_request(raw, context.config.limits, references_of(context, claim.spec.owner)), control);
   context.metrics.count_points(result.operation == "analyze" ? 0 : result.points().size());
   return store_result(result);
 }

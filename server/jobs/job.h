@@ -18,13 +18,14 @@ inline bool is_terminal(JobStatus s) { return s != JobStatus::accepted && s != J
 
 /// What a submitter says. The request is kept as it came, so a worker parses exactly what the handler vetted.
 struct JobSpec {
-  std::string operation;     ///< "generate", "optimize", "analyze"
-  std::string owner;         ///< "" while there is no authentication
-  std::string content_type;  ///< of `request`
-  std::string query;         ///< raw query string of the request
-  std::string request;       ///< body bytes
-  std::string trace;         ///< traceparent, or empty
-  std::string needs;         ///< id of the job whose result `request` takes its points from, or empty
+  std::string operation;             ///< "generate", "optimize", "analyze"
+  std::string owner;                 ///< "" while there is no authentication
+  std::string content_type;          ///< of `request`
+  std::string query;                 ///< raw query string of the request
+  std::string request;               ///< body bytes
+  std::string trace;                 ///< traceparent, or empty
+  std::string needs;                 ///< id of the job whose result `request` takes its points from, or empty
+  std::vector<std::string> domains;  ///< ids of the uploaded domains that it lies on; not kept in claims
   bool attached = false;  ///< a client is waiting on its connection: not worth a second attempt after a crash
 };
 

@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "server/jobs/domain_record.h"
 #include "server/jobs/job.h"
 
 namespace wellspaced {
@@ -39,7 +41,7 @@ struct JobCounts {
 
 enum class CancelOutcome { requested, already_over, unknown };
 
-/// Jobs, their results and their events, durable.
+/// Jobs, their results and their events, and uploaded domains, durable.
 ///
 /// Guarantees
 /// 1. `submit` returns after the job is on disk: nothing acknowledged is lost by a crash at any time.
@@ -52,13 +54,15 @@ enum class CancelOutcome { requested, already_over, unknown };
 /// {"id","status","progress","attempt"}.
 /// 6. A result that a live job needs is kept until that job is over, even past its time; it can't be purged.
 /// 7. Ids ascend in the order of submission; each claim of a job has a greater attempt than the one before.
+/// 8. A domain that a live job or a kept result lies on is kept, even past its time; it can't be deleted.
 ///
 /// Errors of every call: storage_unavailable, storage_full. Thread safety: all calls from any thread.
 class JobStore {
  public:
   virtual ~JobStore() = default;
 
-  /// Errors: overloaded, too_many_jobs; those of `result` if the result that the job needs is not there.
+  /// Errors: overloaded, too_many_jobs; those of `result` if the result that the job needs is not there;
+  /// no_such_domain.
   virtual Job submit(const JobSpec& spec) = 0;
 
   /// The oldest accepted job, or one whose lease ran out (attempt + 1), or nothing. Jobs that ran out of
@@ -87,12 +91,24 @@ class JobStore {
   /// dismissed).
   virtual std::string result(const std::string& id) = 0;
 
+  /// Keeps a domain, and says whether it is new to its owner; one that is there only gets its time anew.
+  /// What is returned is on disk.
+  virtual std::pair<DomainRecord, bool> add_domain(const DomainSpec& spec, const std::string& bytes) = 0;
+  virtual std::optional<DomainRecord> find_domain(const std::string& owner, const std::string& id) = 0;
+  /// In the order of their ids, at most `limit`, those after the id `cursor`.
+  virtual std::vector<DomainRecord> list_domains(const std::string& owner, const std::string& cursor,
+                                                 int limit) = 0;
+  /// As they were uploaded. Errors: no_such_domain.
+  virtual std::string domain_bytes(const std::string& owner, const std::string& id) = 0;
+  /// False if there is none such. Errors: conflict naming a job, while one or its result lies on it.
+  virtual bool delete_domain(const std::string& owner, const std::string& id) = 0;
+
   /// Appends an event (attempt-fenced); false if the claim no longer holds the job.
   virtual bool append_event(const Claim& claim, const std::string& type, const std::string& json) = 0;
   virtual std::vector<JobEvent> events_after(const std::string& id, std::int64_t sequence) = 0;
 
-  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows. Number
-  /// of rows touched.
+  /// Drops results whose time is over (the job row stays, expired, for as long again), then the rows, then
+  /// domains. Number of rows touched.
   virtual int expire() = 0;
   virtual JobCounts counts() = 0;
   /// Throws if the store can't be used (readyz).

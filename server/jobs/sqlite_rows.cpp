@@ -77,6 +77,9 @@ void insert(sqlite::Connection& connection, const std::string& id, const JobSpec
       id, spec.operation, spec.owner, spec.content_type, spec.query, spec.trace, spec.attached,
       static_cast<std::int64_t>(spec.request.size()), spec.needs, now_ms);
   write_blob(connection, id, 0, spec.request);
+  for (const std::string& domain : spec.domains)
+    connection.run("INSERT OR IGNORE INTO job_domain (job, owner, domain) VALUES (?1, ?2, ?3)", id,
+                   spec.owner, domain);
 }
 
 JobSpec spec_of(sqlite::Connection& connection, const std::string& id) {
@@ -174,6 +177,7 @@ std::vector<JobEvent> events_after(sqlite::Connection& connection, const std::st
 void erase(sqlite::Connection& connection, const std::string& id) {
   connection.run("DELETE FROM event WHERE job = ?1", id);
   connection.run("DELETE FROM blob WHERE job = ?1", id);
+  connection.run("DELETE FROM job_domain WHERE job = ?1", id);
   connection.run("DELETE FROM job WHERE id = ?1", id);
 }
 

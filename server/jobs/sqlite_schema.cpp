@@ -52,6 +52,24 @@ CREATE TABLE event (
                                R"sql(
 ALTER TABLE job ADD COLUMN needs TEXT NOT NULL DEFAULT '';
 CREATE INDEX job_live_by_needs ON job (needs) WHERE needs <> '' AND state IN ('accepted', 'running');
+)sql",
+                               // job_domain: the domains that a live job's request or a kept result lies on.
+                               R"sql(
+CREATE TABLE domain (
+  owner TEXT NOT NULL, id TEXT NOT NULL, format TEXT NOT NULL, allow_self_intersections INTEGER NOT NULL,
+  facts TEXT NOT NULL, bytes INTEGER NOT NULL, created INTEGER NOT NULL, expires INTEGER NOT NULL,
+  PRIMARY KEY (owner, id)
+) WITHOUT ROWID;
+CREATE INDEX domain_by_expiry ON domain (expires);
+CREATE TABLE domain_blob (
+  owner TEXT NOT NULL, domain TEXT NOT NULL, seq INTEGER NOT NULL, data BLOB NOT NULL,
+  PRIMARY KEY (owner, domain, seq)
+);
+CREATE TABLE job_domain (
+  job TEXT NOT NULL, owner TEXT NOT NULL, domain TEXT NOT NULL,
+  PRIMARY KEY (job, domain)
+) WITHOUT ROWID;
+CREATE INDEX job_domain_by_domain ON job_domain (owner, domain);
 )sql"};
 
 constexpr auto kNewest = static_cast<std::int64_t>(kSteps.size());

@@ -17,6 +17,7 @@
 #include "server/jobs/job_id.h"
 #include "server/jobs/process_lock.h"
 #include "server/jobs/sqlite.h"
+#include "server/jobs/sqlite_domains.h"
 #include "server/jobs/sqlite_rows.h"
 #include "server/jobs/sqlite_schema.h"
 #include "server/problem.h"
@@ -70,6 +71,12 @@ class SqliteStore final : public JobStore {
   CancelOutcome cancel(const std::string& id) override;
   bool purge(const std::string& id) override;
   std::string result(const std::string& id) override;
+  std::pair<DomainRecord, bool> add_domain(const DomainSpec& spec, const std::string& bytes) override;
+  std::optional<DomainRecord> find_domain(const std::string& owner, const std::string& id) override;
+  std::vector<DomainRecord> list_domains(const std::string& owner, const std::string& cursor,
+                                         int limit) override;
+  std::string domain_bytes(const std::string& owner, const std::string& id) override;
+  bool delete_domain(const std::string& owner, const std::string& id) override;
   bool append_event(const Claim& claim, const std::string& type, const std::string& json) override;
   std::vector<JobEvent> events_after(const std::string& id, std::int64_t sequence) override;
   int expire() override;
@@ -110,6 +117,7 @@ class SqliteStore final : public JobStore {
   void recover();
   int drop_results(std::int64_t now_ms);
   int drop_jobs(std::int64_t now_ms);
+  int drop_domains(std::int64_t now_ms);
 
   const std::string path_;
   const JobLimits limits_;
@@ -151,6 +159,7 @@ Job SqliteStore::submit(const JobSpec& spec) {
   return write([&](std::int64_t now_ms) {
     check_room_for(spec);
     if (!spec.needs.empty()) check_result(writer_, spec.needs);
+    for (const std::string& domain : spec.domains) rows::domain(writer_, spec.owner, domain, now_ms);
     const std::string id = next_id(now_ms);
     rows::insert(writer_, id, spec, now_ms);
     rows::announce(writer_, id, "status", limits_.events_per_job);
@@ -330,6 +339,7 @@ void SqliteStore::end(const std::string& id, const Ending& ending, std::int64_t 
       " lease_until = NULL, updated = ?5, finished = ?5, expires = ?6 WHERE id = ?1",
       id, to_string(ending.status), ending.message, ending.problem, now_ms, now_ms + limits_.keep_result_ms);
   writer_.run("DELETE FROM blob WHERE job = ?1 AND attempt = 0", id);
+  if (ending.status != JobStatus::successful) writer_.run("DELETE FROM job_domain WHERE job = ?1", id);
   rows::announce(writer_, id, "status", limits_.events_per_job);
   rows::announce(writer_, id, "done", limits_.events_per_job);
 }
@@ -416,7 +426,7 @@ constexpr int kDropBatch = 16;
 
 int SqliteStore::expire() {
   int total = 0;
-  for (const auto drop : {&SqliteStore::drop_results, &SqliteStore::drop_jobs}) {
+  for (const auto drop : {&SqliteStore::drop_results, &SqliteStore::drop_jobs, &SqliteStore::drop_domains}) {
     int dropped = 0;
     do {
       if (total > 0)
@@ -432,6 +442,7 @@ int SqliteStore::drop_results(std::int64_t now_ms) {
   const std::vector<std::string> ids = rows::with_result_over(writer_, now_ms, kDropBatch);
   for (const std::string& id : ids) {
     writer_.run("DELETE FROM blob WHERE job = ?1", id);
+    writer_.run("DELETE FROM job_domain WHERE job = ?1", id);
     writer_.run("UPDATE job SET result_kept = 0, updated = ?2 WHERE id = ?1", id, now_ms);
   }
   return static_cast<int>(ids.size());
@@ -442,6 +453,33 @@ int SqliteStore::drop_jobs(std::int64_t now_ms) {
       rows::over_for_good(writer_, now_ms - limits_.keep_result_ms, kDropBatch);
   for (const std::string& id : ids) rows::erase(writer_, id);
   return static_cast<int>(ids.size());
+}
+
+int SqliteStore::drop_domains(std::int64_t now_ms) { return rows::drop_domains(writer_, now_ms, kDropBatch); }
+
+// ---- domains
+
+std::pair<DomainRecord, bool> SqliteStore::add_domain(const DomainSpec& spec, const std::string& bytes) {
+  return write([&](std::int64_t now_ms) {
+    return rows::add_domain(writer_, spec, bytes, now_ms, now_ms + limits_.keep_result_ms);
+  });
+}
+
+std::optional<DomainRecord> SqliteStore::find_domain(const std::string& owner, const std::string& id) {
+  return read([&](Connection& c) { return rows::find_domain(c, owner, id, now(c)); });
+}
+
+std::vector<DomainRecord> SqliteStore::list_domains(const std::string& owner, const std::string& cursor,
+                                                    int limit) {
+  return read([&](Connection& c) { return rows::list_domains(c, owner, cursor, limit, now(c)); });
+}
+
+std::string SqliteStore::domain_bytes(const std::string& owner, const std::string& id) {
+  return read([&](Connection& c) { return rows::domain_bytes(c, rows::domain(c, owner, id, now(c))); });
+}
+
+bool SqliteStore::delete_domain(const std::string& owner, const std::string& id) {
+  return write([&](std::int64_t now_ms) { return rows::delete_domain(writer_, owner, id, now_ms); });
 }
 
 JobCounts SqliteStore::counts() {

@@ -290,10 +290,13 @@ TEST_F(Service, EveryRouteIsInTheDescriptionAndEveryDescribedPathIsARoute) {
 TEST_F(Service, EveryGetOfTheDescriptionAnswersWithADescribedStatusAndType) {
   const std::string id = caller.submit("generate", R"({"count":50})");
   ASSERT_EQ(caller.finished(id)["status"], "successful");
+  const std::string domain =
+      caller.post("/v1/domains", "POLYGON ((0 0, 1 0, 0 1, 0 0))", {}, "text/wkt").parsed()["id"];
   const json document = caller.get("/openapi.json").parsed();
   for (const auto& [path, methods] : document["paths"].items()) {
     if (!methods.contains("get") || path.ends_with("/events")) continue;
-    std::string target = std::regex_replace(path, std::regex("\\{id\\}"), id);
+    std::string target =
+        std::regex_replace(path, std::regex("\\{id\\}"), path.starts_with("/v1/domains") ? domain : id);
     target = std::regex_replace(target, std::regex("\\{operation\\}"), "analyze");
     const Answer answer = caller.get(target);
     EXPECT_EQ(answer.status, 200) << target << answer.body;

@@ -87,6 +87,7 @@ TEST_F(SqliteStoreTest, RefusesANewerSchema) {
 
 TEST_F(SqliteStoreTest, BringsAnOlderSchemaUpToDateWithItsJobs) {
   const std::string id = open()->submit(some_spec("an old request")).id;
+  sql("DROP TABLE domain; DROP TABLE domain_blob; DROP TABLE job_domain");
   sql("DROP INDEX job_live_by_needs; ALTER TABLE job DROP COLUMN needs; PRAGMA user_version = 1");
   const auto store = open();
   const Claim taken = store->claim("a worker").value();

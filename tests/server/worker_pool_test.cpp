@@ -61,6 +61,22 @@ class FailingStore final : public JobStore {
   std::vector<JobEvent> events_after(const std::string& id, std::int64_t s) override {
     return store_.events_after(id, s);
   }
+  std::pair<DomainRecord, bool> add_domain(const DomainSpec& spec, const std::string& bytes) override {
+    return store_.add_domain(spec, bytes);
+  }
+  std::optional<DomainRecord> find_domain(const std::string& owner, const std::string& id) override {
+    return store_.find_domain(owner, id);
+  }
+  std::vector<DomainRecord> list_domains(const std::string& owner, const std::string& cursor,
+                                         int limit) override {
+    return store_.list_domains(owner, cursor, limit);
+  }
+  std::string domain_bytes(const std::string& owner, const std::string& id) override {
+    return store_.domain_bytes(owner, id);
+  }
+  bool delete_domain(const std::string& owner, const std::string& id) override {
+    return store_.delete_domain(owner, id);
+  }
   int expire() override { return store_.expire(); }
   JobCounts counts() override { return store_.counts(); }
   void ping() override { store_.ping(); }

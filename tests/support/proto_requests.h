@@ -21,12 +21,12 @@ inline Request read(const std::string& operation, const std::string& body, const
     if (id == "known") return points_of_a_job();
     throw Error(ErrorCode::no_such_job, "there is no such job");
   };
-  return read_request({operation, "application/json", body, {}}, limits, jobs);
+  return read_request({operation, "application/json", body, {}}, limits, {jobs, {}});
 }
 
 inline Request read_table(const std::string& operation, const std::string& media_type,
                           const std::string& body, const Query& query = {}, const Limits& limits = {}) {
-  return read_request({operation, media_type, body, query}, limits, nullptr);
+  return read_request({operation, media_type, body, query}, limits, {});
 }
 
 inline Result run(const std::string& operation, const std::string& body, unsigned threads = 1) {
