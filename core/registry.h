@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/control.h"
+#include "core/mesh/mesh.h"
 #include "core/optimize/optimize.h"
 #include "core/point_set.h"
 #include "core/rng.h"
@@ -87,9 +88,16 @@ struct Optimizer : Method {
   double times_elsewhere = 1;  ///< how many times as long it takes on other domains
 };
 
-/// All methods, in the order in which users see them. One row each in registry_generators.cpp and
-/// registry_optimizers.cpp.
+struct Mesher : Method {
+  Mesh (*run)(const PointSet&, const Control&) = nullptr;
+  Cost cost_a_point;  ///< on the torus
+  Cost cost_elsewhere;
+};
+
+/// All methods, in the order in which users see them. One row each in registry_generators.cpp,
+/// registry_optimizers.cpp and registry_meshers.cpp.
 std::span<const Generator> generators();
 std::span<const Optimizer> optimizers();
+std::span<const Mesher> meshers();
 
 }  // namespace wellspaced

@@ -144,6 +144,7 @@ RawRequest raw_request(std::string_view operation, std::string_view content_type
 
 std::uint64_t point_limit(std::string_view operation, const Limits& limits) {
   if (operation == "optimize") return limits.optimize_points;
+  if (operation == "mesh") return limits.mesh_points;
   return operation == "analyze" ? limits.analyze_points : limits.generate_points;
 }
 

@@ -17,7 +17,7 @@ using Query = std::vector<std::pair<std::string, std::string>>;
 
 /// A request as it comes: body, its media type, and the decoded query.
 struct RawRequest {
-  std::string_view operation;     ///< "generate", "optimize", "analyze"
+  std::string_view operation;     ///< one of operation_names
   std::string_view content_type;  ///< media type, parameters allowed: "application/json; charset=utf-8"
   std::string_view body;
   Query query;                       ///< without format, and without what it says of a picture

@@ -10,6 +10,7 @@
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
 #include "proto/measures/measures.h"
+#include "proto/mesh_result.h"
 
 namespace wellspaced {
 namespace {
@@ -259,6 +260,22 @@ Result run(const AnalyzeRequest& request, Control& control) {
   }
   if (request.compares) result.summary["version"] = version();
   return result;
+}
+
+Result run(const MeshRequest& request, Control& control) {
+  Part first(control, 0, 0.5);
+  Made made = make(request.points, first);
+  const auto mesh = at(request.points.pointer, [&] {
+    return std::make_shared<const Mesh>(request.method->run(made.points, control));
+  });
+  ordered_json summary = {{"n", made.points.size()},
+                          {"method", request.method->name},
+                          {"quality", quality_to_json(measure_quality(*mesh), made.points.domain->area())}};
+  if (!made.optimized.is_null()) summary["optimized"] = std::move(made.optimized);
+  add_sizing(summary, made.points);
+  add_seed(summary, request.points);
+  add_end(summary, made.points);
+  return {"mesh", std::move(summary), one_group(std::move(made.points)), {}, mesh};
 }
 
 }  // namespace

@@ -97,6 +97,13 @@ Cost cost_of(const AnalyzeRequest& request) {
   return {cost.seconds, cost.bytes + kept};
 }
 
+Cost cost_of(const MeshRequest& request) {
+  const double n = expected_points(request.points);
+  const bool torus = is_torus(domain_of(request.points));
+  return cost_of(request.points) +
+         times(n, torus ? request.method->cost_a_point : request.method->cost_elsewhere);
+}
+
 std::string mebibytes(double bytes) {
   return bytes < 0x1p70 ? std::to_string(static_cast<std::uint64_t>(bytes / 0x1p20)) + " MiB"
                         : "countless bytes";
@@ -190,6 +197,7 @@ double expected_points(const PointSource& source) {
 double expected_points(const Request& request) {
   if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation)) return expected(*optimize);
   if (const auto* generate = std::get_if<GenerateRequest>(&request.operation)) return expected(*generate);
+  if (const auto* mesh = std::get_if<MeshRequest>(&request.operation)) return expected_points(mesh->points);
   double most = 0;
   for (const SourceGroup& group : std::get<AnalyzeRequest>(request.operation).groups)
     most = std::max(most, size_of(group).n);
@@ -205,6 +213,7 @@ const Domain& domain_of(const PointSource& source) {
 
 Cost expected_cost(const Request& request) {
   if (const auto* analyze = std::get_if<AnalyzeRequest>(&request.operation)) return cost_of(*analyze);
+  if (const auto* mesh = std::get_if<MeshRequest>(&request.operation)) return cost_of(*mesh);
   const Cost written = times(expected_points(request), writing);
   if (const auto* optimize = std::get_if<OptimizeRequest>(&request.operation))
     return cost_of(*optimize) + written;

@@ -10,6 +10,7 @@ struct Limits {
   std::uint64_t generate_points = 10'000'000;
   std::uint64_t optimize_points = 10'000'000;
   std::uint64_t analyze_points = 10'000'000;
+  std::uint64_t mesh_points = 10'000'000;
   std::uint64_t picture_points = 100'000;
   double picture_seconds = 10;              ///< estimated, to draw one
   double sync_seconds = 30;                 ///< estimated work above this needs `Prefer: respond-async`

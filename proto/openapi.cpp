@@ -112,6 +112,12 @@ ordered_json format_parameters(std::string_view operation) {
   return parameters;
 }
 
+ordered_json mesh_format_parameter() {
+  ordered_json names = ordered_json::array();
+  for (const Format format : formats_of("mesh")) names.push_back(name_of(format));
+  return parameter("format", "query", "wins over Accept", {{"type", "string"}, {"enum", names}});
+}
+
 ordered_json binary_schema() {
   return {{"type", "string"}, {"contentMediaType", "application/octet-stream"}};
 }
@@ -120,7 +126,8 @@ ordered_json binary_schema() {
 ordered_json result_content(std::string_view operation, const std::string& schema) {
   ordered_json content;
   for (const Format format : formats_of(operation)) {
-    const bool text = format == Format::csv || format == Format::svg;
+    const bool text =
+        format == Format::csv || format == Format::svg || format == Format::obj || format == Format::vtu;
     ordered_json of = format == Format::json ? schema_reference(schema)
                       : text                 ? ordered_json{{"type", "string"}}
                                              : binary_schema();
@@ -133,6 +140,7 @@ ordered_json example_of(const std::string& operation) {
   ordered_json generate = {{"method", "poisson-disk"}, {"count", 10000}, {"seed", 1}};
   if (operation == "generate") return generate;
   if (operation == "analyze") return {{"points", {{"generate", generate}}}};
+  if (operation == "mesh") return {{"points", {{"generate", generate}}}, {"method", "delaunay"}};
   return {{"points", {{"generate", generate}}}, {"method", "opt-beta-local"}, {"beta", 0.85}};
 }
 
@@ -193,6 +201,10 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
       }
     for (const auto& [name, schema] : schemas.items()) add(name, schema);
     add("enrich", enrich_schema());
+  } else if (operation == "mesh") {
+    ordered_json names = ordered_json::array();
+    for (const Mesher& method : meshers()) names.push_back(method.name);
+    add("method", {{"type", "string"}, {"enum", names}, {"default", names.front()}});
   } else {
     ordered_json names = ordered_json::array();
     for (const Measure& m : measures()) names.push_back(m.name);
@@ -202,7 +214,7 @@ void add_table_parameters(ordered_json& parameters, const std::string& operation
     for (const Measure& m : measures())
       for (const Parameter& p : m.parameters) add(m.name + "." + p.name, parameter_schema(p));
   }
-  if (operation != "generate") {
+  if (operation != "generate" && operation != "mesh") {
     add("sizing.type",
         {{"type", "string"}, {"enum", {"constant", "linear"}}, {"description", "of a sizing function"}});
     add("sizing.axis", {{"type", "string"}, {"enum", {"x", "y", "z"}}, {"description", "of a linear one"}});
@@ -234,7 +246,7 @@ ordered_json run_responses(const std::string& operation) {
 }
 
 ordered_json operation_path(const std::string& name, const std::string& summary) {
-  ordered_json parameters = format_parameters(name);
+  ordered_json parameters = name == "mesh" ? ordered_json{mesh_format_parameter()} : format_parameters(name);
   if (name != "generate") add_table_parameters(parameters, name);
   parameters.push_back(
       parameter("Prefer", "header",
@@ -309,7 +321,7 @@ ordered_json job_paths() {
   content["application/json"]["schema"] = {
       {"oneOf",
        {schema_reference("GenerateResult"), schema_reference("OptimizeResult"),
-        schema_reference("AnalyzeResult")}}};
+        schema_reference("AnalyzeResult"), schema_reference("MeshResult")}}};
   ordered_json result = get("getJobResult", "jobs", "Result of a job", content,
                             {404, 406, 409, 410, 416, 422, 500, 503, 504}, parameters);
   result["responses"]["206"] = {{"description", "The range asked for"}};
@@ -372,9 +384,9 @@ ordered_json service_paths() {
       {"get", get("listOperations", "service", "Methods, parameters, formats and limits", json_content(any),
                   {503})}};
   paths["/v1/operations/{operation}"] = {
-      {"get", get("getOperation", "service", "One operation", json_content(any), {404},
-                  {parameter("operation", "path", "its name",
-                             {{"type", "string"}, {"enum", {"generate", "optimize", "analyze"}}})})}};
+      {"get",
+       get("getOperation", "service", "One operation", json_content(any), {404},
+           {parameter("operation", "path", "its name", {{"type", "string"}, {"enum", operation_names}})})}};
   paths["/livez"] = {{"get", get("getLivez", "service", "The process answers", text_content(), {503})}};
   paths["/readyz"] = {{"get", get("getReadyz", "service", "New work is taken", text_content(), {503})}};
   paths["/version"] = {{"get", get("getVersion", "service", "Name and version", json_content(any), {503})}};
@@ -391,6 +403,7 @@ ordered_json openapi_json(const Limits& limits) {
   paths["/v1/generate"] = operation_path("generate", "Make a point set");
   paths["/v1/optimize"] = operation_path("optimize", "Make a point set well spaced");
   paths["/v1/analyze"] = operation_path("analyze", "Measure a point set");
+  paths["/v1/mesh"] = operation_path("mesh", "Make triangles or cells of a point set");
   paths.update(domain_paths());
   paths.update(job_paths());
   paths.update(service_paths());
@@ -406,7 +419,8 @@ ordered_json openapi_json(const Limits& limits) {
         {"version", version()},
         {"summary", "Well-spaced blue-noise point sets"},
         {"description",
-         "Generates, optimizes and analyzes point sets that are random and yet cover their domain evenly, "
+         "Generates, optimizes, analyzes and meshes point sets that are random and yet cover their domain "
+         "evenly, "
          "measured by beta = r_c / r_f, coverage radius over conflict radius. Limits here: body " +
              std::to_string(limits.body_bytes) + " bytes, " + std::to_string(limits.generate_points) +
              " points."},

@@ -4,6 +4,7 @@
 #include "core/domain/torus.h"
 #include "core/registry.h"
 #include "proto/measures/measures.h"
+#include "proto/mesh_result.h"
 #include "proto/operations.h"
 #include "proto/picture.h"
 #include "proto/result.h"
@@ -376,6 +377,40 @@ void add_analyze_request(ordered_json& schemas) {
       {{"required", {"points"}}}, {{"required", {"sets"}}}, {{"required", {"compare"}}}};
 }
 
+void add_mesh(ordered_json& schemas) {
+  ordered_json names = ordered_json::array();
+  for (const Mesher& method : meshers()) names.push_back(method.name);
+  schemas["MeshRequest"] =
+      closed(object({{"points", schema_reference("PointSource")},
+                     {"domain", schema_reference("Domain")},
+                     {"method", {{"type", "string"}, {"enum", names}, {"default", names.front()}}}},
+                    {"points"}));
+  const ordered_json number = {{"type", {"integer", "null"}}};
+  ordered_json result = common_result();
+  result["method"] = typed("string", "that was used");
+  result["quality"] = quality_schema();
+  result["optimized"] = typed("object", "what the optimizer said of the points, where they came out of one");
+  result["points"] = schema_reference("Points");
+  result["vertices"] = {
+      {"type", "array"},
+      {"description",
+       "of a periodic domain unwrapped: what reaches across a seam has vertices of its own there"},
+      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
+  result["faces"] = {{"type", "array"},
+                     {"description", "the vertices of each, from 0, counter-clockwise"},
+                     {"items", {{"type", "array"}, {"items", {{"type", "integer"}}}}}};
+  result["vertex_points"] = {
+      {"type", "array"},
+      {"description",
+       "delaunay: the point that each vertex is, or is an image of; null: a corner of the domain"},
+      {"items", number}};
+  result["face_points"] = {{"type", "array"},
+                           {"description", "voronoi: whose cell each face is, or is part of"},
+                           {"items", number}};
+  schemas["MeshResult"] =
+      object(result, {"n", "method", "quality", "version", "domain", "points", "vertices", "faces"});
+}
+
 ordered_json job_schema() {
   ordered_json time = {{"type", {"string", "null"}}, {"format", "date-time"}};
   return object(
@@ -454,6 +489,7 @@ ordered_json openapi_schemas() {
   add_analyze_request(schemas);
   add_results(schemas);
   add_analysis(schemas);
+  add_mesh(schemas);
   schemas["Job"] = job_schema();
   schemas["JobList"] = object({{"jobs", {{"type", "array"}, {"items", schema_reference("Job")}}}}, {"jobs"});
   schemas["UploadedDomain"] = uploaded_domain_schema();

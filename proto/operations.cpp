@@ -81,6 +81,8 @@ ordered_json operations_json(const Limits& limits) {
   add("optimize", "Moves the points of a set until it is as well spaced as asked for.", "methods",
       methods_json(optimizers()), limits.optimize_points);
   add("analyze", "Measures a point set.", "measures", measures_json(), limits.analyze_points);
+  add("mesh", "Makes triangles or cells of a point set.", "methods", methods_json(meshers()),
+      limits.mesh_points);
   out["pictures"] = methods_json(pictures());
   out["limits"] = {{"body_bytes", limits.body_bytes},
                    {"picture_points", limits.picture_points},

@@ -164,6 +164,16 @@ AnalyzeRequest analyze_request(Fields& fields, SourceReader& reader, const Limit
   return request;
 }
 
+MeshRequest mesh_request(Fields& fields, SourceReader& reader) {
+  MeshRequest request;
+  request.method = &find_row(meshers(), fields.text("method").value_or(meshers().front().name), "/method");
+  fields.find("points");
+  fields.find("domain");
+  fields.refuse_unknown();
+  request.points = reader.points(fields);
+  return request;
+}
+
 /// [true, false]: along which axes a rectangle repeats.
 std::optional<std::array<bool, 2>> periodic_field(Fields& fields) {
   const json* value = fields.find("periodic");
@@ -250,6 +260,13 @@ Request read_request(const RawRequest& raw, const Limits& limits, const Referenc
   SourceReader reader(document, point_limit(raw.operation, limits), references);
   Fields fields(document.root, "");
   Request request;
+  if (raw.operation == "mesh") {
+    if (!raw.picture.is_null())
+      throw Error(ErrorCode::invalid_parameters, "a mesh is no picture; leave this out", "/picture");
+    request.operation = mesh_request(fields, reader);
+    require_affordable(request, limits);
+    return request;
+  }
   const json* picture = fields.find("picture");
   request.picture = merged_picture(picture != nullptr ? *picture : json(), raw.picture);
   read_picture(request.picture, "/picture");

@@ -72,8 +72,13 @@ struct AnalyzeRequest {
   std::vector<MeasureCall> measures;
 };
 
+struct MeshRequest {
+  PointSource points;
+  const Mesher* method = nullptr;
+};
+
 struct Request {
-  std::variant<GenerateRequest, OptimizeRequest, AnalyzeRequest> operation;
+  std::variant<GenerateRequest, OptimizeRequest, AnalyzeRequest, MeshRequest> operation;
   nlohmann::json picture;  ///< that is asked for, as read_picture takes it; null if there is none
 };
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "proto/formats/mesh_writer.h"
 #include "proto/json_writer.h"
+#include "proto/mesh_result.h"
 #include "proto/picture.h"
 #include "proto/request.h"
 
@@ -28,6 +30,7 @@ std::string write_json(const Result& result) {
   text += ",\"points\":";
   text += rows_to_json(result.points().coordinates.data(), result.points().size(),
                        static_cast<std::size_t>(result.points().domain->dimension()));
+  if (result.mesh != nullptr) text += mesh_members(*result.mesh, result.points().domain->dimension());
   return text + "}\n";
 }
 
@@ -79,6 +82,10 @@ Result load(const ordered_json& head, std::string_view data, const DomainById& f
     const auto sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
     for (PointSet& set : result.groups.back().sets) set.sizing = sizing;
   }
+  if (head.contains("mesh")) {
+    result.mesh = take_mesh(head["mesh"], data);
+    if (result.mesh == nullptr) throw unreadable();
+  }
   if (result.groups.empty() || !data.empty()) throw unreadable();
   return result;
 }
@@ -94,6 +101,11 @@ std::string write_picture(const Result& result, Format format, const nlohmann::j
   } catch (const Error& error) {
     throw error.where() == "/scale" ? error.within("/picture") : error;
   }
+}
+
+const Mesh& mesh_of(const Result& result) {
+  if (result.mesh == nullptr) throw unreadable();
+  return *result.mesh;
 }
 
 }  // namespace
@@ -129,12 +141,14 @@ std::string store_result(const Result& result) {
                               {"sizes", std::move(sizes)},
                               {"sizing", sizing_to_json(group.sets.front().sizing.get())}});
   }
+  if (result.mesh != nullptr) head["mesh"] = mesh_head(*result.mesh);
   std::string bytes = dump(head) + "\n";
   bytes.reserve(bytes.size() + numbers * sizeof(double));
   for (const ResultGroup& group : result.groups)
     for (const PointSet& set : group.sets)
       bytes.append(reinterpret_cast<const char*>(set.coordinates.data()),
                    set.coordinates.size() * sizeof(double));
+  if (result.mesh != nullptr) append_mesh(bytes, *result.mesh);
   return bytes;
 }
 
@@ -151,10 +165,14 @@ Result load_result(std::string_view bytes, const DomainById& find) {
   }
 }
 
+bool makes_points(std::string_view operation) { return operation == "generate" || operation == "optimize"; }
+
 std::span<const Format> formats_of(std::string_view operation) {
   static constexpr std::array<Format, 5> with_points = {Format::json, Format::npy, Format::csv, Format::svg,
                                                         Format::png};
   static constexpr std::array<Format, 3> without = {Format::json, Format::svg, Format::png};
+  static constexpr std::array<Format, 4> with_mesh = {Format::json, Format::ply, Format::obj, Format::vtu};
+  if (operation == "mesh") return with_mesh;
   return operation == "analyze" ? std::span<const Format>(without) : std::span<const Format>(with_points);
 }
 
@@ -178,6 +196,15 @@ Encoded encode_result(const Result& result, Format format, const nlohmann::json&
     case Format::svg:
     case Format::png:
       out.bytes = write_picture(result, format, picture, limits, control);
+      break;
+    case Format::ply:
+      out.bytes = write_ply(mesh_of(result));
+      break;
+    case Format::obj:
+      out.bytes = write_obj(mesh_of(result));
+      break;
+    case Format::vtu:
+      out.bytes = write_vtu(mesh_of(result));
       break;
   }
   out.summary_line = summary_line(result);

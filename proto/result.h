@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/control.h"
+#include "core/mesh/mesh.h"
 #include "core/point_set.h"
 #include "proto/formats/media.h"
 #include "proto/limits.h"
@@ -28,8 +30,9 @@ struct Result {
   std::string operation;
   nlohmann::ordered_json
       summary;  ///< as users see it, all but the points; nothing in it depends on time, job or machine
-  std::vector<ResultGroup> groups;  ///< one, unless several were compared
-  nlohmann::ordered_json picture;   ///< that the request asked for; null if there is none
+  std::vector<ResultGroup> groups;             ///< one, unless several were compared
+  nlohmann::ordered_json picture;              ///< that the request asked for; null if there is none
+  std::shared_ptr<const Mesh> mesh = nullptr;  ///< of an operation that makes one
 
   /// The first set, of most results the only one.
   const PointSet& points() const { return groups.front().sets.front(); }
@@ -48,6 +51,9 @@ std::string_view version();
 /// `find` knows. Errors of load: internal if they aren't such bytes; whatever `find` throws.
 std::string store_result(const Result& result);
 Result load_result(std::string_view bytes, const DomainById& find = {});
+
+/// Whether an operation gives points that were not there before.
+bool makes_points(std::string_view operation);
 
 /// The formats a result of that operation can be had in, the default one first.
 std::span<const Format> formats_of(std::string_view operation);

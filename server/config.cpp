@@ -10,6 +10,7 @@
 #include <arpa/inet.h>
 
 #include "core/error.h"
+#include "proto/operations.h"
 #include "proto/result.h"
 
 namespace wellspaced {
@@ -65,6 +66,7 @@ void add_settings(CLI::App& app, Config& c) {
       ->check(at_least_one);
   setting(app, "--analyze-limit", c.limits.analyze_points, "most points that analyze takes")
       ->check(at_least_one);
+  setting(app, "--mesh-limit", c.limits.mesh_points, "most points that mesh takes")->check(at_least_one);
   setting(app, "--picture-limit", c.limits.picture_points, "most points in a picture")->check(at_least_one);
   setting(app, "--picture-seconds", c.limits.picture_seconds, "longest estimated time to draw a picture")
       ->check(CLI::Validator(CLI::Range(0.0, 1e9)) & not_nan);
@@ -84,15 +86,15 @@ void add_settings(CLI::App& app, Config& c) {
 
 void add_run(CLI::App& app, Invocation& i) {
   auto* run = app.add_subcommand("run", "do one request from a file, without a server");
-  run->add_option("operation", i.operation, "generate, optimize or analyze")
+  run->add_option("operation", i.operation, "generate, optimize, analyze or mesh")
       ->required()
-      ->check(CLI::IsMember({"generate", "optimize", "analyze"}));
+      ->check(CLI::IsMember(std::vector<std::string>(operation_names.begin(), operation_names.end())));
   run->add_option("request", i.request_path, "file with the request's body; - reads standard input")
       ->required();
   run->add_option("-o,--output", i.output_path,
                   "file for the result; its ending chooses the format; - writes standard output")
       ->required();
-  run->add_option("--format", i.format, "json, npy, csv or svg, when the ending doesn't say");
+  run->add_option("--format", i.format, "json, npy, csv, ply, ..., when the ending doesn't say");
   run->add_option("--picture", i.picture,
                   "what an svg or png shows; its parameters are --query picture.NAME=VALUE");
   run->add_option("--content-type", i.content_type, "of the request, when the file's ending doesn't say");

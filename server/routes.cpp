@@ -20,6 +20,7 @@ std::vector<http::Route> routes(Context& context) {
       {"POST", "/v1/generate", operation("generate")},
       {"POST", "/v1/optimize", operation("optimize")},
       {"POST", "/v1/analyze", operation("analyze")},
+      {"POST", "/v1/mesh", operation("mesh")},
       {"GET", "/v1/operations", bind(get_operations)},
       {"GET", "/v1/operations/{operation}", bind(get_operation)},
       {"POST", "/v1/domains", bind(post_domain)},

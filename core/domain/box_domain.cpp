@@ -154,6 +154,15 @@ Vec3 BoxDomain::boundary_point(std::size_t curve, double along) const {
   }
 }
 
+std::optional<BoundarySpot> BoxDomain::boundary_spot(Vec3 p) const {
+  if (freedom(p).dimensions != 1) return std::nullopt;
+  if (periodic_[0]) return BoundarySpot{p.y == 0 ? 0u : 1u, p.x};
+  if (periodic_[1]) return BoundarySpot{p.x == 0 ? 0u : 1u, p.y};
+  if (p.y == 0) return BoundarySpot{0, p.x};
+  if (p.x == size_[0]) return BoundarySpot{1, p.y};
+  return p.y == size_[1] ? BoundarySpot{2, size_[0] - p.x} : BoundarySpot{3, size_[1] - p.y};
+}
+
 std::optional<Vec3> BoxDomain::boundary_point_at(Vec3 p) const {
   constexpr double tolerance = 1e-12;
   double c[2] = {p.x, p.y};

@@ -62,6 +62,12 @@ struct BoundaryCurve {
   bool closed = false;
 };
 
+/// A place on the boundary: that way along a curve.
+struct BoundarySpot {
+  std::size_t curve = 0;
+  double along = 0;
+};
+
 /// A flat (on a sphere: spherical) triangle of a domain, counter-clockwise.
 using DomainTriangle = std::array<Vec3, 3>;
 
@@ -178,6 +184,9 @@ class Domain {
     (void)curve, (void)along;
     return {};
   }
+
+  /// Where on its curve a point with one degree of freedom is, to rounding; nothing for others.
+  virtual std::optional<BoundarySpot> boundary_spot(Vec3) const { return {}; }
 
   /// The point of the boundary that is nearest to p, a place on it to within rounding: free along its curve,
   /// or a corner. Nothing where p is not on it.

@@ -133,6 +133,11 @@ Vec2 MeshBorder::tangent(const Spot& spot) const {
   return {unit.x * turn.cos - unit.y * turn.sin, unit.x * turn.sin + unit.y * turn.cos};
 }
 
+BoundarySpot MeshBorder::on_curve(const Spot& spot) const {
+  const auto [curve, index] = position_of_.at(spot.half_edge);
+  return {curve, lines_[curve].starts[index] + spot.along};
+}
+
 double MeshBorder::possible(const Spot& spot, double s) const {
   const auto [curve, index] = position_of_.at(spot.half_edge);
   const double at = lines_[curve].starts[index] + spot.along, length = curves_[curve].length;

@@ -35,6 +35,8 @@ class MeshBorder {
 
   /// Of a point of that face, if it is on the border.
   std::optional<Spot> spot(Vec3 p, std::uint32_t face) const;
+  /// Where on its curve a spot is; a corner: at the start of the curve that begins there.
+  BoundarySpot on_curve(const Spot& spot) const;
   /// In the face of the spot's edge; for a vertex in the one in the middle between its border edges.
   MeshPlace place(const Spot& spot) const;
   /// Unit tangent, as the faces lead, in the chart of that face; at a vertex it halves the turn.

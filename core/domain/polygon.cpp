@@ -180,6 +180,13 @@ bool Polygon::holds(Vec3 p, Vec2 u) const {
   return parts_->locator.locate(planar(p) + u).place != Place::outside;
 }
 
+std::optional<BoundarySpot> Polygon::boundary_spot(Vec3 p) const {
+  const Located at = parts_->locator.locate(planar(p));
+  if (at.place != Place::edge) return std::nullopt;
+  const PolygonEdge& e = parts_->rings.edges()[at.edge];
+  return BoundarySpot{at.edge, dot(planar(p) - e.from, e.to - e.from) / length(e)};
+}
+
 std::optional<Vec3> Polygon::boundary_point_at(Vec3 p) const {
   const double tolerance = 1e-12 * norm(box().size) + 4 * parts_->rings.ulp();
   const EdgeGrid& grid = parts_->locator.grid();

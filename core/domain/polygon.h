@@ -63,6 +63,7 @@ class Polygon : public Domain {
   bool pieces(Vec3 base, double reach, ChartPieces& out) const override;
   std::vector<BoundaryCurve> boundary() const override;
   Vec3 boundary_point(std::size_t curve, double along) const override;
+  std::optional<BoundarySpot> boundary_spot(Vec3 p) const override;
   std::optional<Vec3> boundary_point_at(Vec3 p) const override;
   std::vector<DomainTriangle> triangles() const override;
 

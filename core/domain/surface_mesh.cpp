@@ -173,6 +173,13 @@ Vec3 SurfaceMesh::place_at(Vec3 p, Vec2 u) const {
 
 bool SurfaceMesh::holds(Vec3 p, Vec2 u) const { return go_straight(unfolding_, spot(p).place, u).part >= 1; }
 
+std::optional<BoundarySpot> SurfaceMesh::boundary_spot(Vec3 p) const {
+  if (border_.curves().empty()) return {};
+  const Spot at = spot(p);
+  if (!at.border || at.border->is_corner) return {};
+  return border_.on_curve(*at.border);
+}
+
 std::optional<Vec3> SurfaceMesh::boundary_point_at(Vec3 p) const {
   if (border_.curves().empty()) return {};
   const Spot at = spot(p);

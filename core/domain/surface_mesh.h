@@ -73,6 +73,7 @@ class SurfaceMesh : public Domain {
   Vec3 step(Vec3 p, Vec2 u) const override;
   Vec3 place_at(Vec3 p, Vec2 u) const override;
   bool holds(Vec3 p, Vec2 u) const override;
+  std::optional<BoundarySpot> boundary_spot(Vec3 p) const override;
   std::optional<Vec3> boundary_point_at(Vec3 p) const override;
   bool has_hints() const override { return true; }
   std::uint32_t hint(Vec3 p) const override { return spot(p).place.face; }

@@ -28,4 +28,18 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
+std::string encode_base64(std::string_view bytes) {
+  constexpr std::size_t block = 3 << 20;  // its lengths are ints
+  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < bytes.size(); from += block) {
+    const std::string_view part = bytes.substr(from, block);
+    to += static_cast<std::size_t>(EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data() + to),
+                                                   reinterpret_cast<const unsigned char*>(part.data()),
+                                                   static_cast<int>(part.size())));
+  }
+  text.resize(to);
+  return text;
+}
+
 }  // namespace wellspaced

@@ -15,11 +15,14 @@ struct FormatRow {
   std::string_view name, media_type;
 };
 
-constexpr std::array<FormatRow, 5> format_rows = {{{Format::json, "json", "application/json"},
+constexpr std::array<FormatRow, 8> format_rows = {{{Format::json, "json", "application/json"},
                                                    {Format::npy, "npy", "application/x-npy"},
                                                    {Format::csv, "csv", "text/csv"},
                                                    {Format::svg, "svg", "image/svg+xml"},
-                                                   {Format::png, "png", "image/png"}}};
+                                                   {Format::png, "png", "image/png"},
+                                                   {Format::ply, "ply", "model/ply"},
+                                                   {Format::obj, "obj", "model/obj"},
+                                                   {Format::vtu, "vtu", "application/vnd.vtk.vtu+xml"}}};
 
 std::string_view trim(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -96,7 +99,7 @@ std::optional<Format> format_named(std::string_view name, std::span<const Format
 Format input_format(std::string_view content_type) {
   const std::string_view type = take_until(content_type, ';');
   for (const FormatRow& row : format_rows)
-    if (!is_picture(row.format) && same_word(row.media_type, type)) return row.format;
+    if (!is_picture(row.format) && !is_mesh(row.format) && same_word(row.media_type, type)) return row.format;
   throw Error(
       ErrorCode::unsupported_media_type,
       std::string(type.empty() ? "the request has no Content-Type" : "this Content-Type is not taken") +
@@ -125,5 +128,8 @@ Format negotiate(std::string_view format_parameter, std::string_view accept,
 }
 
 bool is_picture(Format format) { return format == Format::svg || format == Format::png; }
+bool is_mesh(Format format) {
+  return format == Format::ply || format == Format::obj || format == Format::vtu;
+}
 
 }  // namespace wellspaced

@@ -11,7 +11,7 @@
 
 namespace wellspaced {
 
-enum class Format { json, npy, csv, svg, png };
+enum class Format { json, npy, csv, svg, png, ply, obj, vtu };
 
 /// "json", "npy", ...: as in ?format= and file extensions.
 std::string_view name_of(Format format);
@@ -29,5 +29,7 @@ Format negotiate(std::string_view format_parameter, std::string_view accept, std
 
 /// Whether it shows a result rather than holding it.
 bool is_picture(Format format);
+/// Whether it holds a mesh and nothing else.
+bool is_mesh(Format format);
 
 }  // namespace wellspaced

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "proto/document.h"
 #include "proto/fields.h"
+#include "proto/operations.h"
 #include "proto/result.h"
 #include "server/handlers/answer.h"
 #include "server/handlers/drawing_place.h"
@@ -20,10 +21,12 @@ namespace {
 constexpr int most_jobs_a_page = 500;
 
 std::string read_operation(const std::string& name) {
-  for (const char* known : {"generate", "optimize", "analyze"})
-    if (name == known) return name;
-  throw Error(ErrorCode::invalid_parameters, "unknown operation; there are: generate, optimize, analyze",
-              "/operation");
+  std::string known;
+  for (const char* const operation : operation_names) {
+    if (name == operation) return name;
+    known += (known.empty() ? "" : ", ") + std::string(operation);
+  }
+  throw Error(ErrorCode::invalid_parameters, "unknown operation; there are: " + known, "/operation");
 }
 
 JobFilter read_filter(const http::Request& request) {

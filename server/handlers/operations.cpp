@@ -152,7 +152,7 @@ std::string run_job(Context& context, const Claim& claim, Control& control) {
       raw_request(claim.spec.operation, claim.spec.content_type, claim.spec.request, query);
   const Result result =
       execute(read_request(raw, context.config.limits, references_of(context, claim.spec.owner)), control);
-  context.metrics.count_points(result.operation == "analyze" ? 0 : result.points().size());
+  context.metrics.count_points(makes_points(result.operation) ? result.points().size() : 0);
   return store_result(result);
 }
 

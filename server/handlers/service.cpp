@@ -55,14 +55,14 @@ http::Response get_operation(Context& context, const http::Request& request) {
   const ordered_json all = operations_json(context.config.limits);
   for (const ordered_json& operation : all["operations"])
     if (operation["name"] == request.parameter("operation")) return json_response(operation.dump() + "\n");
-  throw Error(ErrorCode::not_found, "there are the operations generate, optimize and analyze");
+  throw Error(ErrorCode::not_found, "there are the operations generate, optimize, analyze and mesh");
 }
 
 http::Response get_root(Context&, const http::Request&) {
   return text_response(
       "wellspaced " + std::string(version()) +
           ": well-spaced blue-noise point sets\n\n"
-          "  POST /v1/generate   POST /v1/optimize   POST /v1/analyze\n"
+          "  POST /v1/generate   POST /v1/optimize   POST /v1/analyze   POST /v1/mesh\n"
           "  GET  /v1/operations (methods and their parameters)   GET /openapi.json (the whole contract)\n\n"
           "curl -s HOST/v1/generate -H 'Content-Type: application/json' -d '{\"count\": 1000}'\n",
       "text/plain; charset=utf-8");

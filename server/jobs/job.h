@@ -18,7 +18,7 @@ inline bool is_terminal(JobStatus s) { return s != JobStatus::accepted && s != J
 
 /// What a submitter says. The request is kept as it came, so a worker parses exactly what the handler vetted.
 struct JobSpec {
-  std::string operation;             ///< "generate", "optimize", "analyze"
+  std::string operation;             ///< "generate", "optimize", "analyze", "mesh"
   std::string owner;                 ///< "" while there is no authentication
   std::string content_type;          ///< of `request`
   std::string query;                 ///< raw query string of the request

@@ -94,7 +94,7 @@ TEST(Openapi, ListsTheQueryOfRequestsWhosePointsAreNotJson) {
 }
 
 TEST(Openapi, OffersEveryFormatOfEveryOperation) {
-  for (const std::string operation : {"generate", "optimize", "analyze"}) {
+  for (const std::string operation : operation_names) {
     const auto& content = document()["paths"]["/v1/" + operation]["post"]["responses"]["200"]["content"];
     EXPECT_EQ(content.size(), formats_of(operation).size()) << operation;
     for (const Format format : formats_of(operation))

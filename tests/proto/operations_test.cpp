@@ -47,7 +47,7 @@ TEST(Operations, ListEveryMeasureWithTheSchemaOfItsResult) {
 }
 
 TEST(Operations, ListTheFormatsOfTheirResults) {
-  for (const std::string name : {"generate", "optimize", "analyze"}) {
+  for (const std::string name : operation_names) {
     const ordered_json formats = operation(name)["formats"];
     ASSERT_EQ(formats.size(), formats_of(name).size());
     for (std::size_t k = 0; k < formats.size(); ++k) {
