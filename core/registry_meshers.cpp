@@ -15,8 +15,8 @@ std::span<const Mesher> meshers() {
         "the surface's topology, or refused.";
     row.reference = "Shewchuk, Delaunay refinement algorithms for triangular mesh generation, 2002";
     row.run = delaunay_mesh;
-    row.cost_a_point = {4e-6, 900};
-    row.cost_elsewhere = {4e-5, 1200};
+    row.cost_a_point = {5e-6, 1000};
+    row.cost_elsewhere = {2e-5, 1500};
     all.push_back(row);
     row = {};
     row.name = "voronoi";
@@ -27,8 +27,8 @@ std::span<const Mesher> meshers() {
     row.reference =
         "Aurenhammer, Voronoi diagrams - a survey of a fundamental geometric data structure, 1991";
     row.run = voronoi_mesh;
-    row.cost_a_point = {5e-6, 1000};
-    row.cost_elsewhere = {1e-4, 1500};
+    row.cost_a_point = {3e-6, 1000};
+    row.cost_elsewhere = {4e-5, 2000};
     all.push_back(row);
     return all;
   }();
