@@ -6,6 +6,7 @@
 #include "core/domain/torus.h"
 #include "core/generate/delaunay_refinement.h"
 #include "core/generate/domain_darts.h"
+#include "core/generate/domain_refinement.h"
 #include "core/generate/generate.h"
 #include "core/generate/jittered.h"
 #include "core/generate/lattice.h"
@@ -197,19 +198,20 @@ const std::vector<Generator> generator_rows = {
      {1e-6, 64}},
     {{"jittered",
       "Jittered grid",
-      "One uniform point in each of as many rectangles of equal area, row by row.",
+      "One uniform point in each of as many parts of equal area: on rectangles row by row, elsewhere by "
+      "halving.",
       "",
       {count(true)}},
      true,
-     true,
+     false,
      false,
      [](const Setting& setting, const Arguments& a, Rng& rng, Control& control) {
-       return jittered(torus_of(setting.domain), count_of(a), rng, control);
+       return jittered(setting.domain, count_of(a), rng, control);
      },
      counted,
      nullptr,
      {1e-7, 64},
-     {}},
+     {2e-5, 400}},
     {{"delaunay-refinement",
       "Delaunay refinement",
       "The circumcenter of the largest Delaunay triangle becomes a point until none is larger than r, which "
@@ -218,21 +220,26 @@ const std::vector<Generator> generator_rows = {
       "Chew, Guaranteed-Quality Triangular Meshes, 1989",
       {count(false), radius()}},
      false,
-     true,
+     false,
      false,
      [](const Setting& setting, const Arguments& a, Rng&, Control& control) {
-       const auto torus = torus_of(setting.domain);
        const auto r = argument(a, "radius");
+       if (!is_torus(*setting.domain))
+         return r ? refine_domain(setting.domain, *r, control)
+                  : refine_domain_to_count(setting.domain, count_of(a), control);
+       const auto torus = torus_of(setting.domain);
        return r ? delaunay_refinement(torus, *r, control)
                 : delaunay_refinement_of_count(torus, count_of(a), control);
      },
      [](const Setting& setting, const Arguments& a) {
        const auto r = argument(a, "radius");
-       return r ? delaunay_refinement_count(setting.domain->area(), *r) : argument(a, "count").value();
+       if (!r) return argument(a, "count").value();
+       return is_torus(*setting.domain) ? delaunay_refinement_count(setting.domain->area(), *r)
+                                        : expected_by_darts(setting, 1, a);
      },
      require_radius_if_given,
      {1e-5, 200},
-     {}},
+     {1e-4, 500}},
     {{"triangular",
       "Triangular lattice",
       "The best possible spacing and no randomness: the least stretched lattice of that many points, beta = "

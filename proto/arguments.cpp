@@ -92,4 +92,9 @@ Arguments read_arguments(const Method& method, Fields& fields, bool sized) {
   return arguments;
 }
 
+bool takes_radius(const Method& method) {
+  const auto is_radius = [](const Parameter& p) { return p.name == "radius"; };
+  return std::any_of(method.parameters.begin(), method.parameters.end(), is_radius);
+}
+
 }  // namespace wellspaced

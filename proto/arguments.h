@@ -15,6 +15,9 @@ namespace wellspaced {
 /// a value that geometry rules out.
 Arguments read_arguments(const Method& method, Fields& fields, bool sized = false);
 
+/// Whether the method has a parameter of that name, "radius".
+bool takes_radius(const Method& method);
+
 /// "in [0.57735, 1)", "at least 1", ...: the range in words.
 std::string range_text(const Parameter& parameter);
 

@@ -3,6 +3,7 @@
 #include "core/domain/sphere.h"
 #include "core/domain/torus.h"
 #include "core/registry.h"
+#include "proto/arguments.h"
 #include "proto/measures/measures.h"
 #include "proto/mesh_result.h"
 #include "proto/operations.h"
@@ -226,6 +227,7 @@ ordered_json method_schema(const Method& method, const std::string& fallback_met
 /// Without what the method doesn't take.
 ordered_json common_of(const Generator& row, ordered_json common) {
   if (!row.takes_sizing) common.erase("sizing");
+  if (!takes_radius(row)) common.erase("allow_small_features");
   return common;
 }
 
@@ -472,7 +474,13 @@ ordered_json openapi_schemas() {
   const ordered_json seed = {
       {"type", "integer"}, {"minimum", 0}, {"default", 0}, {"description", "same seed, same points"}};
   const ordered_json made = {
-      {"domain", schema_reference("Domain")}, {"sizing", schema_reference("Sizing")}, {"seed", seed}};
+      {"domain", schema_reference("Domain")},
+      {"sizing", schema_reference("Sizing")},
+      {"seed", seed},
+      {"allow_small_features",
+       {{"type", "boolean"},
+        {"default", false},
+        {"description", "whether a radius may be larger than the smallest feature of a polygon or mesh"}}}};
   ordered_json asked = made;
   asked["picture"] = schema_reference("Picture");
   add_methods(schemas, "PointsToGenerate", generators(), made);

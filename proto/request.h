@@ -23,6 +23,7 @@ struct GenerateRequest {
   std::uint64_t seed = 0;
   std::shared_ptr<const Sizing> sizing;  ///< none: the same radius everywhere
   std::string pointer;                   ///< where it stands in its request: "" or "/points/generate"
+  bool allow_small_features = false;     ///< the radius may be larger than details of the domain
 };
 
 inline Setting setting_of(const GenerateRequest& request) { return {request.domain, request.sizing}; }

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/domain/sizing.h"
 #include "core/domain/torus.h"
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
 #include "proto/arguments.h"
 #include "proto/find_row.h"
+#include "proto/small_features.h"
 
 namespace wellspaced {
 namespace {
@@ -33,14 +35,6 @@ void require_count(double points, std::uint64_t limit, const std::string& where)
 }
 
 void require_enrichable(const OptimizeRequest& request, std::uint64_t limit) {
-  if (const Domain& domain = domain_of(request.points); !is_torus(domain))
-    throw Error(ErrorCode::invalid_parameters,
-                "holes are filled on a torus only; leave enrich out on a " + std::string(domain.type()),
-                request.pointer + "/enrich");
-  if (is_sized(request))
-    throw Error(ErrorCode::invalid_parameters,
-                "holes are filled without a sizing function only; leave enrich out",
-                request.pointer + "/enrich");
   const double most = expected_points({std::make_shared<OptimizeRequest>(request), ""});
   if (most <= static_cast<double>(limit)) return;
   throw Error(ErrorCode::too_large,
@@ -69,6 +63,15 @@ PointSource reseeded(const PointSource& source, std::uint64_t by, const std::str
                 seeds_pointer);
   }
   return moved;
+}
+
+/// Where a count is given the radius is what it is.
+void require_fitting_radius(const GenerateRequest& request) {
+  if (argument(request.arguments, "count")) return;
+  const auto radius = argument(request.arguments, "radius");
+  if (radius) require_no_smaller_feature(*request.domain, *radius, request.pointer + "/radius");
+  if (request.sizing != nullptr)
+    require_no_smaller_feature(*request.domain, request.sizing->least(), request.pointer + "/sizing");
 }
 
 /// What a radius gives is known only after the work.
@@ -100,7 +103,7 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
   if (request.method->only_torus && !is_torus(*request.domain))
     throw Error(ErrorCode::invalid_parameters,
                 request.method->name +
-                    " is for a torus only; ask for poisson-disk, two-radii or white-noise on a " +
+                    " is for a torus only, for lattices repeat; ask for another method on a " +
                     std::string(request.domain->type()),
                 fields.pointer_to("method"));
   request.seed = fields.whole("seed").value_or(0);
@@ -109,6 +112,8 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
     throw Error(ErrorCode::invalid_parameters,
                 request.method->name + " takes no sizing function; ask for poisson-disk or two-radii",
                 fields.pointer_to("sizing"));
+  if (takes_radius(*request.method))
+    request.allow_small_features = fields.flag("allow_small_features").value_or(false);
   request.arguments = read_arguments(*request.method, fields, request.sizing != nullptr);
   require_count(request.method->expected_count(setting_of(request), request.arguments), most_points_,
                 density_pointer(request));
@@ -117,6 +122,7 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
   } catch (const Error& error) {
     throw error.within(fields.pointer());
   }
+  if (!request.allow_small_features) require_fitting_radius(request);
   return request;
 }
 

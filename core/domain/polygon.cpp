@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -33,6 +34,9 @@ double length(const PolygonEdge& e) { return norm(e.to - e.from); }
 
 /// In the order in which they are made: each takes what is above it to be right.
 struct Polygon::Parts {
+  mutable std::once_flag looked_for_feature;
+  mutable PolygonFeature feature;
+
   explicit Parts(const std::vector<std::vector<Vec2>>& given)
       : rings(given), locator(rings), pieces(rings, locator), triangles(triangulate(rings)) {
     for (const PolygonEdge& e : rings.edges()) boundary_length += length(e);
@@ -112,8 +116,10 @@ std::vector<std::vector<Vec2>> Polygon::rings() const {
   return out;
 }
 
-PolygonFeature Polygon::smallest_feature() const {
-  return find_smallest_feature(parts_->rings, parts_->locator);
+const PolygonFeature& Polygon::smallest_feature() const {
+  std::call_once(parts_->looked_for_feature,
+                 [this] { parts_->feature = find_smallest_feature(parts_->rings, parts_->locator); });
+  return parts_->feature;
 }
 
 double Polygon::area() const { return parts_->area; }

@@ -41,7 +41,7 @@ class Polygon : public Domain {
   /// The least of these: the distance of a corner from an edge of another ring, or of the same one where it
   /// is less than a third of the way along the boundary in both directions; the longer side of the box of a
   /// ring. Points closer to each other than that can follow the boundary. Cost: O(n log n) or so.
-  PolygonFeature smallest_feature() const;
+  const PolygonFeature& smallest_feature() const;
 
   std::string_view type() const override { return "polygon"; }
   int dimension() const override { return 2; }

@@ -56,6 +56,12 @@ SurfaceMesh::SurfaceMesh(TriangleMesh mesh)
   for (const DomainTriangle& face : faces_of(mesh_)) areas_up_to_.push_back(sum += area_of(face));
 }
 
+const SmallestFeature& SurfaceMesh::smallest_feature() const {
+  std::call_once(looked_for_feature_,
+                 [this] { smallest_feature_ = wellspaced::smallest_feature(mesh_, tree_); });
+  return smallest_feature_;
+}
+
 MeshPlace SurfaceMesh::locate(Vec3 p) const { return spot(p).place; }
 
 SurfaceMesh::Spot SurfaceMesh::spot(Vec3 p) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,8 +54,8 @@ class SurfaceMesh : public Domain {
   /// The vector of the shortest way from p to q in the chart at p; nothing if that is longer than `reach`.
   std::optional<Vec2> logarithm(Vec3 p, Vec3 q, double reach) const;
 
-  /// See core/domain/smallest_feature.h.
-  SmallestFeature smallest_feature() const { return wellspaced::smallest_feature(mesh_, tree_); }
+  /// See core/domain/smallest_feature.h. Looked for once.
+  const SmallestFeature& smallest_feature() const;
 
   std::string_view type() const override { return "mesh"; }
   int dimension() const override { return 3; }
@@ -106,6 +107,8 @@ class SurfaceMesh : public Domain {
   FaceTree tree_;
   MeshBorder border_;
   std::vector<double> areas_up_to_;  ///< of each face and all before it
+  mutable std::once_flag looked_for_feature_;
+  mutable SmallestFeature smallest_feature_;
 };
 
 }  // namespace wellspaced

@@ -301,34 +301,29 @@ PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const Dis
   return points;
 }
 
-namespace {
-
-/// The scale that gives about `count` points.
-double scale_for(const Domain& domain, const DiskRule& rule, double count) {
+double scale_for_count(const Domain& domain, const DiskRule& rule, double count) {
   const CountFormula n = count_formula(domain, rule);
   const double a = n.inside / (rule.coverage * rule.coverage), b = n.rim / rule.coverage;
   return (b + std::sqrt(b * b + 4 * a * count)) / (2 * count);
 }
 
-std::size_t corners_of(const Domain& domain) {
+void require_corners(const Domain& domain, std::uint64_t count) {
   const std::vector<BoundaryCurve> curves = domain.boundary();
-  return static_cast<std::size_t>(
+  const auto corners = static_cast<std::size_t>(
       std::count_if(curves.begin(), curves.end(), [](const BoundaryCurve& c) { return !c.closed; }));
+  if (count >= corners) return;
+  throw Error(ErrorCode::infeasible,
+              "the domain has " + std::to_string(corners) +
+                  " corners, each of which is a point; ask for as many points or more",
+              "/count");
 }
-
-}  // namespace
 
 PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, std::uint64_t count,
                                    const DiskRule& rule, Rng& rng, Control& control) {
-  const std::size_t corners = corners_of(*domain);
-  if (count < corners)
-    throw Error(ErrorCode::infeasible,
-                "the domain has " + std::to_string(corners) +
-                    " corners, each of which is a point; ask for as many points or more",
-                "/count");
+  require_corners(*domain, count);
   DiskRule tried = rule;
   const auto wanted = static_cast<double>(count);
-  tried.scale = scale_for(*domain, rule, wanted - 0.6 * std::sqrt(wanted));
+  tried.scale = scale_for_count(*domain, rule, wanted - 0.6 * std::sqrt(wanted));
   for (;;) {
     PointSet points = DomainDarts(domain, tried, rng, control).run();
     const auto found = static_cast<double>(points.size());

@@ -27,15 +27,28 @@ HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rul
 
 void HoleFiller::fill() {
   const double enough = rule_.coverage * (1 + 1e-9);
-  collect(enough);
   Hole hole{};
-  while (take_deepest(enough, hole)) insert(hole, enough);
+  // Corners that are settled may have led to one hole where there are two.
+  for (bool again = true; again;) {
+    const std::size_t before = points_.size();
+    collect(enough);
+    while (take_deepest(enough, hole)) insert(hole, enough);
+    again = points_.size() > before && !points_.domain->has_exact_cells();
+  }
 }
 
 double HoleFiller::fill_to(std::size_t count) {
-  collect(0);
+  const bool once = points_.domain->has_exact_cells();
   Hole hole{};
-  while (points_.size() < count && take_deepest(0, hole)) insert(hole, 0);
+  for (bool found = true; found && points_.size() < count;) {
+    collect(0);
+    found = false;
+    const std::size_t until = once ? count : std::min(count, points_.size() + points_.size() / 8 + 1);
+    while (points_.size() < until && take_deepest(0, hole)) {
+      insert(hole, 0);
+      found = true;
+    }
+  }
   return hole.depth;
 }
 
@@ -66,10 +79,11 @@ void HoleFiller::look(std::uint32_t i, double deeper_than) {
 void HoleFiller::look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than) {
   const Domain& domain = *points_.domain;
   const std::optional<Vec3> on_rim = is_outer ? domain.boundary_point_at(corner.at) : std::nullopt;
-  if (is_outer && (!on_rim || domain.freedom(*on_rim).dimensions == 0)) return;
+  if (is_outer && !on_rim) return;
   if (on_rim) corner.at = *on_rim;
   const auto depth = [&] { return corner.distance / rule_.distance(rule_.radius(corner.at), r); };
-  if (depth() <= deeper_than) return;
+  constexpr double settled_over_claimed = 1.15;  // seen at the most where points are few
+  if (depth() * (domain.has_exact_cells() ? 1 : settled_over_claimed) <= deeper_than) return;
   if (!domain.has_exact_cells()) corner = settler_.settle(corner.at, corner.distance, is_outer);
   if (depth() <= deeper_than) return;
   heap_.push_back({depth(), corner.at});
@@ -77,11 +91,12 @@ void HoleFiller::look_at_corner(CornerSettler::Corner corner, bool is_outer, dou
 }
 
 /// As of now: points may have come since the hole was found.
-double HoleFiller::depth_of(Vec3 at) {
+double HoleFiller::depth_of(const Hole& hole) {
   const Domain& domain = *points_.domain;
+  const Vec3 at = hole.at;
   const double r = rule_.radius(at);
   neighbors_.clear();
-  const double reach = 1.5 * rule_.reach(r);
+  const double reach = std::max(1.5, 1.01 * hole.depth / rule_.coverage) * rule_.reach(r);
   grid_.gather(at, nobody, reach, neighbors_);
   domain.localize(at, reach, neighbors_);
   double depth = std::numeric_limits<double>::infinity();
@@ -95,7 +110,7 @@ bool HoleFiller::take_deepest(double deeper_than, Hole& deepest) {
     std::pop_heap(heap_.begin(), heap_.end(), ComesLater());
     const Hole hole = heap_.back();
     heap_.pop_back();
-    const double depth = depth_of(hole.at);
+    const double depth = depth_of(hole);
     if (depth < hole.depth * (1 - 1e-9) || depth <= deeper_than)
       continue;  // its new corners were found since
     deepest = hole;

@@ -41,7 +41,7 @@ class HoleFiller {
   void collect(double deeper_than);
   void look(std::uint32_t i, double deeper_than);
   void look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than);
-  double depth_of(Vec3 at);
+  double depth_of(const Hole& hole);
   bool take_deepest(double deeper_than, Hole& deepest);
   void insert(const Hole& hole, double deeper_than);
 

@@ -9,6 +9,9 @@
 #include "core/analyze/spacing.h"
 #include "core/domain/grid_sizing.h"
 #include "core/domain/sizing.h"
+#include "core/generate/domain_refinement.h"
+#include "core/generate/enrich.h"
+#include "core/generate/jittered.h"
 #include "core/optimize/cvt.h"
 #include "core/optimize/distmesh.h"
 #include "core/optimize/opt_beta.h"
@@ -44,6 +47,85 @@ double brute_r_f_free(const PointSet& points) {
       if (!is_corner(i) || !is_corner(j))
         least = std::min(least, points.domain->distance(points[i], points[j]));
   return least;
+}
+
+/// White noise where a quarter of the domain, by x, is left empty; none on the boundary.
+PointSet noise_with_a_hole(const std::shared_ptr<const Domain>& domain, std::size_t n) {
+  PointSet points{domain, {}};
+  Rng rng(n);
+  const Box box = domain->box();
+  while (points.size() < n) {
+    const Vec3 p = domain->random_point(rng);
+    if (p.x > box.low.x + box.size.x / 4) points.push_back(p);
+  }
+  return points;
+}
+
+TEST(Enrichment, FillsHolesOnEveryDomainByBruteForce) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    const PointSet points = noise_with_a_hole(domain, 60);
+    Control control;
+    const double coverage = enrichment_coverage(points, control);
+    const PointSet filled = enrich(points, coverage, control);
+    EXPECT_GT(filled.size(), points.size());
+    EXPECT_LE(filled.size() - points.size(), most_inserted(*domain, coverage));
+    EXPECT_TRUE(std::equal(points.coordinates.begin(), points.coordinates.end(), filled.coordinates.begin()));
+    EXPECT_LE(brute_r_c_on(filled, 1e-6 * coverage), coverage * (1 + 2e-6));
+    for (std::size_t i = points.size(); i < filled.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GE(domain->distance(filled[i], filled[j]), coverage * (1 - 1e-9)) << i << " " << j;
+    EXPECT_EQ(enrich(filled, coverage, control).coordinates, filled.coordinates);
+  }
+}
+
+TEST(DomainRefinement, KeepsBothRadiiOnEveryDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    if (is_torus(*domain)) continue;
+    for (const double n : {20.0, 90.0}) {
+      SCOPED_TRACE(name + " " + std::to_string(n));
+      Control control;
+      const double r = std::sqrt(0.66 * domain->area() / n);
+      const PointSet points = refine_domain(domain, r, control);
+      EXPECT_GE(brute_r_f_free(points), r * (1 - 1e-9));
+      EXPECT_LE(brute_r_c_on(points, 1e-6 * r), r * (1 + 2e-6));
+      EXPECT_EQ(refine_domain(domain, r, control).coordinates, points.coordinates);
+      const PointSet counted = refine_domain_to_count(domain, static_cast<std::uint64_t>(n), control);
+      EXPECT_EQ(counted.size(), static_cast<std::size_t>(n));
+      EXPECT_LE(brute_r_c_on(counted, 1e-6 * r), brute_r_f_free(counted) * (1 + 3e-6));
+    }
+  }
+}
+
+/// Every cell of a grid of areas has about as many points as it should: strata are equal.
+TEST(Jittered, HasOnePointInEachPartOfEqualAreaOnEveryDomain) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    constexpr std::size_t n = 256, sets = 400;
+    std::array<std::vector<double>, 2> below;  // how many points are below some height: jittered, random
+    Control control;
+    Rng rng(5);
+    for (std::size_t s = 0; s < sets; ++s) {
+      const PointSet points = jittered(domain, n, rng, control);
+      ASSERT_EQ(points.size(), n);
+      std::array<double, 2> count{};
+      const double height = domain->box().low.y + 0.37 * domain->box().size.y;
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_FALSE(domain->why_outside(points[i])) << i;
+        ASSERT_EQ(domain->freedom(points[i]).dimensions, 2);
+        count[0] += points[i].y < height;
+        count[1] += domain->random_point(rng).y < height;
+      }
+      for (std::size_t k = 0; k < 2; ++k) below[k].push_back(count[k]);
+    }
+    std::array<double, 2> mean{}, variance{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const double b : below[k]) mean[k] += b / sets;
+      for (const double b : below[k]) variance[k] += (b - mean[k]) * (b - mean[k]) / sets;
+    }
+    EXPECT_NEAR(mean[0], mean[1], 6 * std::sqrt(variance[1] / sets)) << "each place is as likely";
+    EXPECT_LT(variance[0], 0.2 * variance[1]) << "counts vary less than those of independent points";
+  }
 }
 
 TEST(ThrowDartsOver, IsMaximalByBruteForce) {

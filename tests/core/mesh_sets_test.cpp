@@ -14,6 +14,9 @@
 #include "core/analyze/spacing.h"
 #include "core/domain/sizing.h"
 #include "core/domain/surface_mesh.h"
+#include "core/generate/domain_refinement.h"
+#include "core/generate/enrich.h"
+#include "core/generate/jittered.h"
 #include "core/optimize/opt_beta.h"
 #include "core/voronoi/corner_settler.h"
 #include "core/voronoi/moving_set.h"
@@ -73,6 +76,30 @@ TEST(MeshSets, AreMaximalAndTheirRadiiAreThoseOfTheSurface) {
     const double deepest = deepest_of_many(*mesh, points, 2 * spacing.r_c, 1000);
     EXPECT_LE(deepest, spacing.r_c * (1 + 1e-9)) << "there is a hole that nobody measured";
     EXPECT_GE(deepest, 0.9 * spacing.r_c) << "no place is that far from all points";
+  }
+}
+
+TEST(MeshSets, AreMadeByEveryGenerator) {
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    Control control;
+    const double radius = std::sqrt(0.66 * mesh->area() / 300);
+    const PointSet refined = refine_domain(mesh, radius, control);
+    const Spacing spacing = measure_spacing(refined, plain);
+    EXPECT_GE(spacing.r_f_free, radius * (1 - 1e-9));
+    EXPECT_LE(spacing.r_c, radius * (1 + 1e-9));
+    EXPECT_LE(deepest_of_many(*mesh, refined, 2 * radius, 300), radius * (1 + 1e-9));
+    const PointSet counted = refine_domain_to_count(mesh, 300, control);
+    EXPECT_EQ(counted.size(), 300u);
+    EXPECT_LE(measure_spacing(counted, plain).beta, 1 + 1e-9);
+
+    Rng rng(3);
+    const PointSet strewn = jittered(mesh, 200, rng, control);
+    ASSERT_EQ(strewn.size(), 200u);
+    for (std::size_t i = 0; i < 200; ++i) EXPECT_FALSE(mesh->why_outside(strewn[i]));
+    const double coverage = enrichment_coverage(strewn, plain);
+    const PointSet filled = enrich(strewn, coverage, control);
+    EXPECT_LE(measure_spacing(filled, plain).r_c, coverage * (1 + 1e-9));
   }
 }
 

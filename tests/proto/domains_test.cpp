@@ -180,8 +180,6 @@ TEST(Domains, AreRefusedWhereTheyCannotBe) {
        "known here are: radius, type"},
       {"generate", R"({"method":"square","count":10,)" + box + "}", invalid, "/method", "for a torus only"},
       {"generate", R"({"radius":2,)" + box + "}", ErrorCode::infeasible, "/radius", "this box"},
-      {"optimize", R"({"points":{"generate":{"count":10,)" + box + R"(}},"enrich":true})", invalid, "/enrich",
-       "on a torus only"},
       {"optimize", R"({"points":[[0.1,0.1],[0.5,1.5],[0.9,0.2]],)" + box + "}", invalid, "/points/1",
        "outside the box"},
       {"analyze", R"({"points":[[1,0,0],[0,1,0],[0,0,1.5]],"domain":{"type":"sphere"}})", invalid,
@@ -285,9 +283,44 @@ TEST(Sizing, IsRefusedWhereItCannotBe) {
       {"generate", R"({"radius":0.1,)" + sizing + "}", invalid, "/radius", "leave radius out"},
       {"generate", R"({"sizing":{"type":"linear","axis":"z","from":1,"to":2},"count":9})", invalid,
        "/sizing/axis", "x or y"},
-      {"optimize", R"({"points":{"generate":{"count":9}},"enrich":true,)" + sizing + "}", invalid, "/enrich",
-       "without a sizing function"},
   });
+}
+
+TEST(Domains, WithDetailsSmallerThanTheRadiusAreRefusedUnlessThatIsAllowed) {
+  const std::string passage =
+      R"("domain":{"type":"polygon","rings":[[[0,0],[1,0],[1,0.45],[1.05,0.45],[1.05,0],[2,0],[2,1],[1.05,1],
+          [1.05,0.55],[1,0.55],[1,1],[0,1]]]})";
+  const std::string body = R"({"radius":0.2,)" + passage;
+  expect_refusals(
+      {{"generate", body + "}", ErrorCode::infeasible, "/radius", "0.05"},
+       {"generate", body + R"(,"allow_small_features":1})", invalid, "/allow_small_features", ""},
+       {"generate", R"({"count":50,"method":"white-noise","allow_small_features":true})", invalid,
+        "/allow_small_features", "unknown"},
+       {"optimize", R"({"points":{"generate":)" + body + "}}}", ErrorCode::infeasible,
+        "/points/generate/radius", "allow_small_features"},
+       {"generate", R"({"sizing":{"type":"linear","axis":"x","from":0.2,"to":0.3},)" + passage + "}",
+        ErrorCode::infeasible, "/sizing", "0.05"}});
+  EXPECT_GT(run("generate", body + R"(,"allow_small_features":true})").points().size(), 12u);
+  EXPECT_GT(run("generate", R"({"radius":0.04,)" + passage + "}").points().size(), 100u);
+  EXPECT_EQ(run("generate", R"({"count":40,)" + passage + "}").points().size(), 40u);
+}
+
+TEST(Domains, OfEveryKindHaveTheirHolesFilled) {
+  for (
+      const std::string domain :
+      {R"({"type":"box"})", R"({"type":"box","periodic":[true,false]})", R"({"type":"sphere"})",
+       R"({"type":"polygon","rings":[[[0,0],[1,0],[1,1],[0,1]],[[0.4,0.4],[0.6,0.4],[0.6,0.6],[0.4,0.6]]]})"}) {
+    SCOPED_TRACE(domain);
+    const std::string points =
+        R"({"points":{"generate":{"method":"white-noise","count":200,"domain":)" + domain + "}}";
+    const Result result = run("optimize", points + R"(,"beta":0.85,"enrich":true})");
+    EXPECT_GT(result.summary["enriched"], 20);
+    EXPECT_EQ(result.summary["converged"], true);
+    const Result sized = run("optimize", points + R"(,"beta":0.9,"enrich":true,
+        "sizing":{"type":"linear","axis":"y","from":1,"to":2}})");
+    EXPECT_GT(sized.summary["enriched"], 20);
+    EXPECT_LE(sized.summary["beta"], 0.9 + 1e-9);
+  }
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using testing::Refusal;
 TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
   expect_refusals({
       {"generate", R"({"count":10,"metod":"square"})", invalid, "/metod",
-       "known here are: count, criterion, domain, method"},
+       "known here are: allow_small_features, count, criterion, domain, method"},
       {"generate", R"({"cuont":10})", invalid, "/cuont", "count"},
       {"generate", R"({"method":"dart","count":10})", invalid, "/method",
        "poisson-disk, two-radii, white-noise, jittered"},
