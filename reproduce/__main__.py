@@ -19,7 +19,7 @@ SETTINGS = ("--sync-seconds", "3600", "--picture-limit", "1000000", "--log-level
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="./dev reproduce", description="Regenerates the paper's torus results as "
+    parser = argparse.ArgumentParser(prog="./dev reproduce", description="Regenerates the paper's results as "
                                                                          "one page.")
     parser.add_argument("--program", required=True, help="the built wellspaced")
     parser.add_argument("--short", action="store_true", help="fewer and smaller sets, in less than a minute")
@@ -60,7 +60,7 @@ def filled_sections(context):
 
 def lead(short):
     text = report.paragraph(
-        f"{paper.AUTHORS}: \u201c{paper.TITLE}\u201d, {paper.JOURNAL}. Its results on the torus, made again with "
+        f"{paper.AUTHORS}: \u201c{paper.TITLE}\u201d, {paper.JOURNAL}. Its results, made again with "
         "the service wellspaced through its public HTTP API. Every number of this service was "
         "computed for this page; what the paper or others say stands with where it is from. "
         "The paper's text could not be obtained by this project: what it says is known from its abstract and from "

@@ -12,6 +12,7 @@ from reproduce import bodies
 
 LARGEST_SVG_BYTES = 1_000_000
 PNG_SCALE = 2
+LONGEST_SHOWN = 2000    # characters of a request that failed
 LONGEST_SECONDS = 3600  # of a request, and of a job
 WAIT_SECONDS = 60       # the longest that the server takes to say how a job gets on
 
@@ -103,6 +104,11 @@ class Client:
         headers = {"Content-Type": "application/json", **headers}
         return self._send(urllib.request.Request(self._address + path, json.dumps(body).encode(), headers))
 
+    def upload(self, path):
+        """What the service says of a domain whose file it now keeps."""
+        return json.loads(self._send(urllib.request.Request(
+            self._address + "/v1/domains", path.read_bytes(), {"Content-Type": "application/octet-stream"})))
+
     def operations(self):
         return json.loads(self.get("/v1/operations"))
 
@@ -139,7 +145,7 @@ class Client:
             self._send(self._request(f"/v1/jobs/{job}", "DELETE"), WAIT_SECONDS)
 
     def _send(self, request, timeout=LONGEST_SECONDS):
-        body = request.data.decode() if request.data else ""
+        body = request.data.decode(errors="replace")[:LONGEST_SHOWN] if request.data else ""
         sent = f"{request.get_method()} {request.selector} {body}".strip()
         try:
             with self._opener.open(request, timeout=timeout) as answer:

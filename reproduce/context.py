@@ -23,14 +23,19 @@ class Sizes:
     local_sweeps: int    # of opt-beta-local where it may not reach its target
     race_points: int     # section 6.2
     race_repeats: int
+    polygon_radii: tuple # Table 1: its rows that are made
+    curved_sweeps: int   # Figs. 13 and 14: of the methods that don't come to their target
+    surface_points: int  # Fig. 15
     race_sweeps: dict    # most sweeps of the methods that have no target
 
 
 FULL = Sizes(seeds=10, type_side=20, methods_points=1000, sweep_points=5000, plate_side=350, plate_sweeps=100,
-             mesh_points=1024, local_sweeps=300, race_points=10_000, race_repeats=5,
+             mesh_points=1024, local_sweeps=300, race_points=10_000, race_repeats=5, polygon_radii=("coarse", "fine"), curved_sweeps=100,
+             surface_points=10_000,
              race_sweeps={"lloyd": 3000, "accelerated": 1000, "distmesh": 3000, "far-point": 300})
 SHORT = Sizes(seeds=3, type_side=12, methods_points=300, sweep_points=1000, plate_side=100, plate_sweeps=50,
-              mesh_points=256, local_sweeps=50, race_points=1000, race_repeats=3,
+              mesh_points=256, local_sweeps=50, race_points=1000, race_repeats=3, polygon_radii=("coarse",), curved_sweeps=10,
+              surface_points=1000,
               race_sweeps={"lloyd": 500, "accelerated": 200, "distmesh": 500, "far-point": 50})
 
 

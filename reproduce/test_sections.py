@@ -18,7 +18,7 @@ UNKNOWN = {"beta_upper": None, "r_f_lower": None, "r_c_upper": None}
 def spacing_of(beta=0.8, **more):
     low, high = formulas.angle_bounds_deg(beta)
     return {"beta": beta, "r_f": 0.05, "r_c": 0.05 * beta, "beta_i_max": beta, "beta_i_mean": 0.7, "rho": 0.8,
-            "coverage": 0.8 * beta, "cell_area_sd": 0.1, "angle_min_deg": low + 1, "angle_max_deg": high - 1,
+            "coverage": 0.8 * beta, "r_f_free": 0.05, "cell_area_sd": 0.1, "angle_min_deg": low + 1, "angle_max_deg": high - 1,
             "edge_min": 1.0, "edge_max": 1.9 * beta, "valence": {"5": 25, "6": 50, "7": 25}, **more}
 
 
@@ -55,6 +55,14 @@ def run_without_beta():
     return run_of(beta_upper=None, converged=False, history=history) | {"beta": None}
 
 
+def mesh_of(method):
+    """A tetrahedron."""
+    spread = {"min": 1.0, "mean": 1.0, "max": 1.0}
+    which = "vertex_points" if method == "delaunay" else "face_points"
+    return {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "faces": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+            which: [0, 1, 2, 3], "quality": {"faces": 4, "angle_deg": spread, "aspect_ratio": spread, "area": 1.0, "domain_area": 1.0}}
+
+
 class FakeClient:
     """Answers whatever is asked for, of sets that have a beta or of such that have none."""
 
@@ -79,7 +87,12 @@ class FakeClient:
                 if "generate" in asked["points"]:
                     del group["optimized"]
             result = {"compare": groups}
+        if operation == "mesh":
+            result = mesh_of(body["method"])
         return Job(self, "ID", operation, body, result)
+
+    def upload(self, path):
+        return {"id": "0" * 64, "faces": 4, "genus": 0}
 
     def timed(self, operation, body):
         return (run_of() if self.known else run_without_beta()), 0.5

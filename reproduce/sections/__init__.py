@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Callable
 
-from reproduce.sections import (bounds, by_sweep, by_type, later, mesh, methods, race, spectra, zone_plate)
+from reproduce.sections import (bounds, by_sweep, by_type, curved, later, mesh, methods, polygons, race, spectra,
+                                zone_plate)
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ ENTRIES = (
     Entry("spectra", "Fig. 9: spectra", spectra.fill),
     Entry("bounds", "Section 6.1: what beta bounds", bounds.fill, ("table", "details")),
     Entry("race", "Section 6.2: time to beta 0.85", race.fill, ("table", "details")),
-    Entry("polygons", "Table 1, Figs. 10 and 12: bounded domains", later.polygons, ("p",)),
-    Entry("curved", "Figs. 13 to 15: sphere and surfaces", later.curved, ("p",)),
+    Entry("polygons", "Table 1, Figs. 10 and 12: bounded domains", polygons.fill),
+    Entry("curved", "Figs. 13 to 15: sphere and surfaces", curved.fill),
     Entry("filtering", "Bilateral filtering", later.filtering, ("p",)),
 )
