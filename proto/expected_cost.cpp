@@ -62,7 +62,7 @@ SetsSize size_of(const SourceGroup& group) {
   for (const PointSource& set : group.sets) size.n = std::max(size.n, expected_points(set));
   size.sets = static_cast<double>(group.sets.size());
   const Vec3 sides = domain_of(group.sets.front()).box().size;
-  size.height_over_width = sides.y / sides.x;
+  size.height_over_width = sides.z > 0 ? 1 : sides.y / sides.x;  // curved domains are drawn in a square
   size.aspect = std::max(size.height_over_width, 1 / size.height_over_width);
   return size;
 }

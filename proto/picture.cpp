@@ -52,7 +52,7 @@ class Subject {
     SetsSize& group = groups_.back();
     group.n = std::max(group.n, points);
     group.sets += 1;
-    group.height_over_width = sides.y / sides.x;
+    group.height_over_width = sides.z > 0 ? 1 : sides.y / sides.x;  // curved domains are drawn in a square
     group.aspect = std::max(group.height_over_width, 1 / group.height_over_width);
   }
 
@@ -130,7 +130,8 @@ void require_possible(const PictureCall& call, const Domain& domain, double n) {
   if (call.picture->needs_torus && !is_torus(domain))
     throw Error(ErrorCode::invalid_parameters,
                 call.picture->name + " is drawn of points on a torus only, not on a " +
-                    std::string(domain.type()) + "; ask for convergence, or for json",
+                    std::string(domain.type()) +
+                    "; ask for voronoi, delaunay, points, distributions or convergence, or for json",
                 "/picture");
   if (call.picture->check == nullptr) return;
   try {

@@ -1,8 +1,11 @@
 #include "core/analyze/bond_order.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 
+#include "core/analyze/point_look.h"
 #include "core/large_vector.h"
 #include "core/voronoi/stars.h"
 
@@ -19,8 +22,8 @@ Vec2 sixfold(Vec2 direction) {
 
 struct StarOrder {
   Vec2 psi6;
-  double edges;  ///< absolute value of the sum over its edges
-  double valence;
+  double edges;      ///< absolute value of the sum over its edges
+  double triangles;  ///< how many of these
 };
 
 StarOrder order_of(std::span<const Spoke> spokes) {
@@ -34,14 +37,36 @@ StarOrder order_of(std::span<const Spoke> spokes) {
   return {(1 / valence) * to_neighbors, norm(between), valence};
 }
 
+/// The same of a star that need not go all around.
+StarOrder order_of(std::span<const DomainStar::Spoke> spokes) {
+  Vec2 to_neighbors, between;
+  double triangles = 0;
+  for (std::size_t k = 0; k < spokes.size(); ++k) {
+    const Vec2 here = spokes[k].way, next = spokes[k + 1 == spokes.size() ? 0 : k + 1].way;
+    to_neighbors = to_neighbors + sixfold(here);
+    if (!spokes[k].closes) continue;
+    between = between + sixfold(next - here);
+    ++triangles;
+  }
+  const double valence = std::max(1.0, static_cast<double>(spokes.size()));
+  return {(1 / valence) * to_neighbors, norm(between), triangles};
+}
+
 }  // namespace
 
 BondOrder bond_order(const PointSet& points, const Control& control) {
   constexpr std::size_t between_checks = 1 << 16;
   require_usable(points, control);
   LargeVector<StarOrder> stars(points.size());
-  visit_stars(points, control,
-              [&](std::size_t i, std::span<const Spoke> spokes) { stars[i] = order_of(spokes); });
+  if (is_plain_torus(points)) {
+    visit_stars(points, control,
+                [&](std::size_t i, std::span<const Spoke> spokes) { stars[i] = order_of(spokes); });
+  } else {
+    const MovingSet set(points, control);
+    for_each_look(set, control, [&](std::size_t i, const PointLook&, const DomainStar& star) {
+      stars[i] = order_of(star.spokes());
+    });
+  }
   const auto n = static_cast<double>(points.size());
   BondOrder result;
   result.psi6.reserve(points.size());
@@ -53,9 +78,9 @@ BondOrder bond_order(const PointSet& points, const Control& control) {
     sum = sum + star.psi6;
     result.psi6_local += result.psi6.back();
     result.psi6_edges += star.edges;
-    terms += star.valence;
+    terms += star.triangles;
   }
-  result.psi6_global = norm(sum) / n;
+  result.psi6_global = points.domain->is_flat() ? norm(sum) / n : std::numeric_limits<double>::quiet_NaN();
   result.psi6_local /= n;
   result.psi6_edges /= terms;
   return result;

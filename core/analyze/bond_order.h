@@ -11,7 +11,8 @@ namespace wellspaced {
 /// that go by the same name and differ; each is in [0, 1] and 1 for the triangular lattice.
 struct BondOrder {
   /// |mean over samples of psi6_i|, psi6_i = mean over Delaunay neighbors of exp(6 i theta), theta being the
-  /// direction to the neighbor: whether the set has one orientation. About 1/sqrt(n) where it has none.
+  /// direction to the neighbor: whether the set has one orientation. About 1/sqrt(n) where it has none. NaN
+  /// on curved domains, where directions at two points can't be compared.
   double psi6_global = 0;
   /// Mean over samples of |psi6_i|: whether each sample's neighbors are a hexagon, however turned.
   double psi6_local = 0;
@@ -22,7 +23,7 @@ struct BondOrder {
   std::vector<double> psi6;  ///< |psi6_i| of each sample, in the points' order, for pictures
 };
 
-/// Measures a point set on a torus.
+/// Measures a point set: on the plain torus by its stars, elsewhere by those of its clipped cells.
 ///
 /// Guarantees: sums over the stars of visit_stars, periodic images included. Lattices with cocircular
 /// neighbors, such as the square one, have no unique triangulation and so no unique bond order.

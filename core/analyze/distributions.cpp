@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/analyze/point_look.h"
 #include "core/analyze/spacing_star.h"
 #include "core/large_vector.h"
 #include "core/math.h"
@@ -109,7 +110,7 @@ class Pass {
         mean_area_(points.domain->area() / static_cast<double>(points.size())),
         samples_(points.size()) {}
 
-  /// Concurrently for different samples.
+  /// Concurrently for different samples, as all that follows.
   void add(std::size_t i, std::span<const Spoke> spokes) {
     const StarMeasure m = measure_star(i, spokes);
     samples_.beta_i[i] = m.outradius / m.nearest;
@@ -120,6 +121,31 @@ class Pass {
     const std::lock_guard lock(counters.mutex);
     samples_.angles[i] = add_angles(spokes, counters.angles);
     samples_.edges[i] = add_edges(i, spokes, counters.edges);
+  }
+
+  /// The same on any domain; areas are so far in the sample's units.
+  void add(const MovingSet& set, std::size_t i, const PointLook& look, const DomainStar& star) {
+    samples_.beta_i[i] = look.outradius / look.nearest;
+    samples_.valence[i] = look.valence;
+    samples_.nearest[i] = look.nearest / set.unit(i);
+    samples_.cell_area[i] = look.area;
+    Counters& counters = counters_.mine();
+    const std::lock_guard lock(counters.mutex);
+    const auto spokes = star.spokes();
+    for (std::size_t k = 0; k < spokes.size(); ++k) {
+      const Vec2 a = spokes[k].way, b = spokes[k + 1 == spokes.size() ? 0 : k + 1].way;
+      if (spokes[k].closes) add_angle(a, b, counters.angles, samples_.angles[i]);
+      const std::uint32_t j = spokes[k].id;
+      if (is_counted_at(i, {a, j}))
+        add_edge(norm(a) / std::min(set.unit(i), set.unit(j)), counters.edges, samples_.edges[i]);
+    }
+  }
+
+  /// Makes areas parts of their mean.
+  void finish_areas() {
+    auto& areas = samples_.cell_area;
+    const double mean = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+    for (double& area : areas) area /= mean;
   }
 
   Distributions result(const Control& control) {
@@ -148,24 +174,27 @@ class Pass {
   /// At the center, so that each triangle is counted at its three corners.
   static Sums add_angles(std::span<const Spoke> spokes, Counter& counter) {
     Sums sums;
-    for (std::size_t k = 0; k < spokes.size(); ++k) {
-      const Vec2 a = spokes[k].offset, b = spokes[k + 1 == spokes.size() ? 0 : k + 1].offset;
-      const double angle = portable_atan2(1, dot(a, b) / cross(a, b)) * (180 / pi);
-      counter.add(angle_grid, angle);
-      sums.add(angle, typical_angle);
-    }
+    for (std::size_t k = 0; k < spokes.size(); ++k)
+      add_angle(spokes[k].offset, spokes[k + 1 == spokes.size() ? 0 : k + 1].offset, counter, sums);
     return sums;
+  }
+
+  static void add_angle(Vec2 a, Vec2 b, Counter& counter, Sums& sums) {
+    const double angle = portable_atan2(1, dot(a, b) / cross(a, b)) * (180 / pi);
+    counter.add(angle_grid, angle);
+    sums.add(angle, typical_angle);
   }
 
   Sums add_edges(std::size_t i, std::span<const Spoke> spokes, Counter& counter) const {
     Sums sums;
-    for (const Spoke& spoke : spokes) {
-      if (!is_counted_at(i, spoke)) continue;
-      const double length = norm(spoke.offset) / d_hex_;
-      counter.add(edge_grid, length);
-      sums.add(length, typical_edge);
-    }
+    for (const Spoke& spoke : spokes)
+      if (is_counted_at(i, spoke)) add_edge(norm(spoke.offset) / d_hex_, counter, sums);
     return sums;
+  }
+
+  static void add_edge(double length, Counter& counter, Sums& sums) {
+    counter.add(edge_grid, length);
+    sums.add(length, typical_edge);
   }
 
   const double d_hex_, mean_area_;
@@ -178,6 +207,14 @@ class Pass {
 Distributions distributions(const PointSet& points, const Control& control) {
   require_usable(points, control);
   Pass pass(points);
+  if (!is_plain_torus(points)) {
+    const MovingSet set(points, control);
+    for_each_look(set, control, [&](std::size_t i, const PointLook& look, const DomainStar& star) {
+      pass.add(set, i, look, star);
+    });
+    pass.finish_areas();
+    return pass.result(control);
+  }
   visit_stars(points, control, [&](std::size_t i, std::span<const Spoke> spokes) { pass.add(i, spokes); });
   return pass.result(control);
 }

@@ -19,15 +19,18 @@ struct Distributions {
   Histogram cell_area;  ///< area of the Voronoi cell / mean area; 0, .02
 };
 
-/// Measures a point set on a torus in one pass over its stars.
+/// Measures a point set in one pass over its stars: on other domains than the plain torus those of clipped
+/// cells, angles and edges of triangles inside, each as its corner sees it (three
+/// points at a boundary need not all see each other), lengths in the units of MovingSet (d_hex, or with a
+/// sizing function what stands for it there; of an edge the smaller one).
 ///
-/// Guarantees: n samples, 3 n edges and 6 n angles, those of the exact Delaunay triangulation up to 1e-12
-/// relative; triangles between periodic images count, once each. Where neighbors are cocircular, as in the
-/// square lattice, the triangulation is not unique, and edges and angles may be fewer. Requires: a set for
-/// which measure_spacing does not refuse the result, as it does nearly collinear ones.
-/// Errors: those of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost:
-/// O(n log n), about 0.5 us a point for even sets; 100 bytes a point, besides the stars. Determinism: the
-/// same bits on any number of threads. Reference: Ebeida et al. 2013, section 6, for the measures.
+/// Guarantees, on the torus: n samples, 3 n edges and 6 n angles, those of the exact Delaunay triangulation
+/// up to 1e-12 relative; triangles between periodic images count, once each. Where neighbors are cocircular,
+/// as in the square lattice, the triangulation is not unique, and edges and angles may be fewer. Requires: a
+/// set for which measure_spacing does not refuse the result, as it does nearly collinear ones. Errors: those
+/// of require_usable; degenerate_input as for visit_stars; cancelled, deadline_exceeded. Cost: O(n log n),
+/// about 0.5 us a point for even sets; 100 bytes a point, besides the stars. Determinism: the same bits on
+/// any number of threads. Reference: Ebeida et al. 2013, section 6, for the measures.
 Distributions distributions(const PointSet& points, const Control& control);
 
 /// Of all sets together, lengths and areas relative to each set's own. Requires: at least one.

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analyze/point_look.h"
 #include "core/analyze/spacing_star.h"
 #include "core/error.h"
 #include "core/math.h"
-#include "core/parallel.h"
-#include "core/voronoi/domain_star.h"
 #include "core/voronoi/moving_set.h"
 
 namespace wellspaced {
@@ -16,52 +15,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What one point's cell and star say; lengths in its units.
-struct Local {
-  double nearest = infinity;  ///< distance to the nearest sample in domain lengths
-  double outradius = 0;       ///< of its cell, in domain lengths
-  double r_f = infinity, r_f_free = infinity;
-  double area = 0;
-  double edge_max = 0, cotangent_max = -infinity, cotangent_min = infinity;
-  int valence = 0;
-};
-
-/// Cotangents of the angles of the triangle (0, a, b), from the lengths of its sides.
-void see_angles(Vec2 a, Vec2 b, Local& local) {
-  const double twice = cross(a, b);
-  const Vec2 e = b - a;
-  for (const double product : {dot(a, b), -dot(a, e), dot(b, e)}) {
-    local.cotangent_max = std::max(local.cotangent_max, product / twice);
-    local.cotangent_min = std::min(local.cotangent_min, product / twice);
-  }
-}
-
-Local look(const MovingSet& set, std::size_t i, CellFinder& cells, DomainStar& star) {
-  star.load(set, i, cells);
-  Local local;
-  const double unit = set.unit(i);
-  local.outradius = cells.outradius();
-  local.area = cells.moments().area / (unit * unit);
-  for (const Neighbor& neighbor : cells.neighbors()) {
-    if (neighbor.id == i) continue;
-    const double distance = norm(set.domain().way_to(set[i], neighbor));
-    const double in_units = distance / std::min(unit, set.unit(neighbor.id));
-    local.nearest = std::min(local.nearest, distance);
-    local.r_f = std::min(local.r_f, in_units);
-    if (!set.both_fixed(i, neighbor.id)) local.r_f_free = std::min(local.r_f_free, in_units);
-  }
-  const std::span<const DomainStar::Spoke> spokes = star.spokes();
-  local.valence = static_cast<int>(spokes.size());
-  for (std::size_t k = 0; k < spokes.size(); ++k) {
-    local.edge_max = std::max(local.edge_max, norm(spokes[k].way) / unit);
-    if (spokes[k].closes) see_angles(spokes[k].way, spokes[k + 1 == spokes.size() ? 0 : k + 1].way, local);
-  }
-  return local;
-}
-
 double angle_deg(double cotangent) { return portable_atan2(1, cotangent) * (180 / pi); }
 
-Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vector<double>& beta_i) {
+Spacing sum_up(const MovingSet& set, const std::vector<PointLook>& locals, std::vector<double>& beta_i) {
   const auto n = static_cast<double>(set.size());
   const double unit = set.spacing();
   Spacing s;
@@ -75,7 +31,7 @@ Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vect
   if (set.domain().is_flat()) require_whole(whole, set.domain().area());
   const double mean_area = area / n;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const Local& local = locals[i];
+    const PointLook& local = locals[i];
     r_f = std::min(r_f, local.r_f);
     r_f_free = std::min(r_f_free, local.r_f_free);
     r_c = std::max(r_c, local.outradius / set.unit(i));
@@ -109,17 +65,10 @@ Spacing sum_up(const MovingSet& set, const std::vector<Local>& locals, std::vect
 }  // namespace
 
 LocalSpacing measure_domain_spacing(const PointSet& points, const Control& control) {
-  constexpr std::size_t block = 256;
   const MovingSet set(points, control);
-  std::vector<Local> locals(set.size());
-  parallel_blocks(set.size(), block, control, [&](std::size_t begin, std::size_t end) {
-    CellFinder cells = set.finder(control);
-    DomainStar star;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i % 64 == 0) control.check();
-      locals[i] = look(set, i, cells, star);
-    }
-  });
+  std::vector<PointLook> locals(set.size());
+  for_each_look(set, control,
+                [&](std::size_t i, const PointLook& look, const DomainStar&) { locals[i] = look; });
   LocalSpacing result;
   result.beta_i.reserve(set.size());
   result.global = sum_up(set, locals, result.beta_i);

@@ -9,6 +9,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "core/domain/cgal_triangulation.h"
 #include "core/domain/exact.h"
 
 namespace wellspaced {
@@ -22,25 +23,6 @@ using FaceBase =
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
-
-constexpr signed char unknown = -1, outside = 0, inside = 1;
-
-/// From the infinite face on, every constraint leads in or out.
-void tell_inside(const Triangulation& triangulation) {
-  for (const auto face : triangulation.all_face_handles()) face->info() = unknown;
-  std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
-  open.back()->info() = outside;
-  while (!open.empty()) {
-    const Triangulation::Face_handle face = open.back();
-    open.pop_back();
-    for (int k = 0; k < 3; ++k) {
-      const Triangulation::Face_handle next = face->neighbor(k);
-      if (next->info() != unknown) continue;
-      next->info() = face->is_constrained(k) ? static_cast<signed char>(inside - face->info()) : face->info();
-      open.push_back(next);
-    }
-  }
-}
 
 }  // namespace
 
@@ -65,7 +47,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const PolygonRings& rings)
   tell_inside(triangulation);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const auto face : triangulation.finite_face_handles())
-    if (face->info() == inside)
+    if (face->info() == is_inside)
       triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   return triangles;
 }

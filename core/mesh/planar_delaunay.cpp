@@ -8,12 +8,10 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
+#include "core/domain/cgal_triangulation.h"
 #include "core/mesh/border_chains.h"
 #include "core/mesh/planar_meshes.h"
 #include "core/mesh/planar_sites.h"
@@ -39,23 +37,24 @@ class PlanarDelaunay {
 
   Mesh run() {
     add_corners();
-    insert();
-    if (sites_.period == 0) constrain();
+    vertices_ = insert_places(triangulation_, sites_.at, control_);
+    const bool is_strip = sites_.period != 0;  // of which all is inside
+    if (!is_strip) {
+      constrain();
+      tell_inside(triangulation_);
+    }
     Mesh mesh;
     begin(mesh);
-    tell_inside();
     std::size_t count = 0;
     for (const auto face : triangulation_.finite_face_handles()) {
       if (++count % 4096 == 0) control_.check();
-      if (face->info() == inside) add(face, mesh);
+      if (is_strip || face->info() == is_inside) add(face, mesh);
     }
     require_all_used(mesh);
     return mesh;
   }
 
  private:
-  static constexpr signed char unknown = -1, outside = 0, inside = 1;
-
   /// Corners that are no points; a place on each closed curve that has none.
   void add_corners() {
     std::map<std::pair<double, double>, std::uint32_t> known;
@@ -71,24 +70,6 @@ class PlanarDelaunay {
     }
   }
 
-  void insert() {
-    using Site = std::pair<Kernel::Point_2, std::uint32_t>;
-    std::vector<Site> sites;
-    for (std::uint32_t k = 0; k < sites_.at.size(); ++k)
-      sites.push_back({Kernel::Point_2(sites_.at[k].x, sites_.at[k].y), k});
-    CGAL::spatial_sort(sites.begin(), sites.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Site>>());
-    vertices_.resize(sites.size());
-    Triangulation::Face_handle near;
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      if (k % 4096 == 0) control_.check();
-      const auto vertex = triangulation_.insert(sites[k].first, near);
-      vertex->info() = sites[k].second;
-      vertices_[sites[k].second] = vertex;
-      near = vertex->face();
-    }
-  }
-
   /// Sites of bounded domains are numbered as their places are.
   void constrain() {
     try {
@@ -100,26 +81,6 @@ class PlanarDelaunay {
       throw Error(ErrorCode::degenerate_input,
                   "points on the boundary are so near to another edge of it that the edges between them "
                   "cross; move them apart, or take the point out");
-    }
-  }
-
-  /// From the infinite face on, every edge of the boundary leads in or out. All of a strip is inside.
-  void tell_inside() {
-    const signed char first = sites_.period == 0 ? unknown : inside;
-    for (const auto face : triangulation_.all_face_handles()) face->info() = first;
-    if (sites_.period != 0) return;
-    std::vector<Triangulation::Face_handle> open{triangulation_.infinite_face()};
-    open.back()->info() = outside;
-    while (!open.empty()) {
-      const Triangulation::Face_handle face = open.back();
-      open.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const Triangulation::Face_handle next = face->neighbor(k);
-        if (next->info() != unknown) continue;
-        next->info() =
-            face->is_constrained(k) ? static_cast<signed char>(inside - face->info()) : face->info();
-        open.push_back(next);
-      }
     }
   }
 

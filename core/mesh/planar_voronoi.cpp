@@ -14,12 +14,10 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
+#include "core/domain/cgal_triangulation.h"
 #include "core/domain/polygon.h"
 #include "core/mesh/planar_meshes.h"
 #include "core/mesh/planar_sites.h"
@@ -58,7 +56,8 @@ class PlanarVoronoi {
       : points_(points), control_(control), sites_(points) {}
 
   Mesh run() {
-    insert();
+    vertices_ = insert_places(triangulation_, sites_.at, control_);
+    for (const auto face : triangulation_.all_face_handles()) face->info() = none;
     find_bounded();
     place_centers();
     for (std::uint32_t i = 0; i < points_.size(); ++i)
@@ -77,25 +76,6 @@ class PlanarVoronoi {
   static constexpr std::uint32_t none = ~0u;
 
   Exact::Point_2 exact(std::uint32_t site) const { return {sites_.at[site].x, sites_.at[site].y}; }
-
-  void insert() {
-    using Site = std::pair<Kernel::Point_2, std::uint32_t>;
-    std::vector<Site> sites;
-    for (std::uint32_t k = 0; k < sites_.at.size(); ++k)
-      sites.push_back({Kernel::Point_2(sites_.at[k].x, sites_.at[k].y), k});
-    CGAL::spatial_sort(sites.begin(), sites.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Site>>());
-    vertices_.resize(sites.size());
-    Triangulation::Face_handle near;
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      if (k % 4096 == 0) control_.check();
-      const auto vertex = triangulation_.insert(sites[k].first, near);
-      vertex->info() = sites[k].second;
-      vertices_[sites[k].second] = vertex;
-      near = vertex->face();
-    }
-    for (const auto face : triangulation_.all_face_handles()) face->info() = none;
-  }
 
   /// The center of a triangle, as seen from its site with the lowest number, so that it is the same for all.
   Vec2 center(Triangulation::Face_handle face) const {

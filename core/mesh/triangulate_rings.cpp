@@ -7,6 +7,8 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "core/domain/cgal_triangulation.h"
+
 namespace wellspaced {
 namespace {
 
@@ -34,22 +36,11 @@ std::vector<std::vector<std::uint32_t>> triangulate_rings(
   for (const auto& ring : rings)
     for (std::size_t k = 0; k < ring.size(); ++k)
       triangulation.insert_constraint(handles[ring[k]], handles[ring[k + 1 == ring.size() ? 0 : k + 1]]);
-  for (const auto face : triangulation.all_face_handles()) face->info() = -1;
-  std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
-  open.back()->info() = 0;
+  tell_inside(triangulation);
   std::vector<std::vector<std::uint32_t>> triangles;
-  while (!open.empty()) {
-    const Triangulation::Face_handle face = open.back();
-    open.pop_back();
-    if (face->info() == 1)
+  for (const auto face : triangulation.finite_face_handles())
+    if (face->info() == is_inside)
       triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-    for (int k = 0; k < 3; ++k) {
-      const Triangulation::Face_handle next = face->neighbor(k);
-      if (next->info() != -1) continue;
-      next->info() = face->is_constrained(k) ? static_cast<signed char>(1 - face->info()) : face->info();
-      open.push_back(next);
-    }
-  }
   return triangles;
 }
 

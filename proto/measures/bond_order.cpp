@@ -35,7 +35,6 @@ Measure bond_order_measure() {
     });
     return means_to_json<BondOrder>(fields, all);
   };
-  row.needs_torus = true;
   row.schema = [] { return numbers_schema<BondOrder>(fields); };
   row.cost = [](const SetsSize& size, const Arguments&) {
     return Cost{8e-6 * size.n * size.sets, 400 * size.n + 8 * size.n * size.sets};

@@ -68,7 +68,6 @@ Measure distributions_measure() {
     for (const Field& field : fields) out[field.name] = to_json(pooled.*field.histogram);
     return out;
   };
-  row.needs_torus = true;
   row.schema = [] {
     ordered_json schema = {{"type", "object"}};
     for (const Field& field : fields) add_property(schema, field.name, histogram_schema(field.description));

@@ -43,7 +43,6 @@ Measure local_measure() {
     for (const PointSet& set : input.sets) sets.push_back(of_set(set, control));
     return ordered_json{{"by_set", std::move(sets)}};
   };
-  row.needs_torus = true;
   row.schema = [] {
     ordered_json schema = {{"type", "object"}};
     add_property(schema, "by_set", {{"type", "array"}, {"items", set_schema()}});

@@ -28,10 +28,11 @@ const Measure* find_measure(std::string_view name) {
 
 void require_meaning(const Measure& measure, const Domain& domain, const std::string& where) {
   if (!measure.needs_torus || is_torus(domain)) return;
-  throw Error(ErrorCode::invalid_parameters,
-              measure.name + " is measured on a torus only, not on a " + std::string(domain.type()) +
-                  "; ask for spacing or certificate, or for this on a torus",
-              where);
+  throw Error(
+      ErrorCode::invalid_parameters,
+      measure.name + " is measured on a torus only, not on a " + std::string(domain.type()) +
+          "; ask for spacing, certificate, distributions, local or bond-order, or for this on a torus",
+      where);
 }
 
 void require_same_domain(const Domain& first, const Domain& other, const std::string& where) {

@@ -335,5 +335,23 @@ TEST(PictureSchema, NamesEveryPictureAndParameter) {
   }
 }
 
+TEST(DrawResult, ShowsPointsOnEveryDomainTheSameOnAnyNumberOfThreads) {
+  for (
+      const std::string domain :
+      {R"({"type":"box","width":2})", R"({"type":"box","periodic":[false,true]})", R"({"type":"sphere"})",
+       R"({"type":"polygon","rings":[[[5,5],[7,5],[7,6],[6,6],[6,7],[5,7]]]})",
+       R"({"type":"mesh","vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"faces":[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]})"})
+    for (const std::string name : {"voronoi", "delaunay", "points", "distributions"}) {
+      SCOPED_TRACE(domain + " " + name);
+      const Result result = run("generate", R"({"count":150,"domain":)" + domain + "}");
+      const PictureCall call = read_picture(name, "/picture");
+      const Control one(1), three(3);
+      const std::string svg = to_svg(draw_result(result, call, {}, one), one);
+      EXPECT_EQ(to_svg(draw_result(result, call, {}, three), three), svg);
+      EXPECT_GT(svg.size(), 3000u);
+      EXPECT_EQ(svg.find("nan"), std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace wellspaced

@@ -193,7 +193,6 @@ Picture pair_correlation_picture() {
 Picture distributions_picture() {
   Picture picture;
   picture.name = "distributions";
-  picture.needs_torus = true;
   picture.title = "Distributions";
   picture.description =
       "Histograms of local ratios, valences, angles, edges, nearest distances and cell areas; one curve a "

@@ -5,7 +5,10 @@
 
 #include "core/analyze/local_measures.h"
 #include "core/analyze/spacing.h"
+#include "core/domain/torus.h"
 #include "core/render/chart.h"
+#include "core/render/pictures/mesh_panel.h"
+#include "core/render/pictures/point_colors.h"
 #include "core/render/pictures/rows.h"
 #include "core/voronoi/cell.h"
 #include "core/voronoi/stars.h"
@@ -13,50 +16,10 @@
 namespace wellspaced {
 namespace {
 
-enum class Kind { voronoi, delaunay, points };
+using Kind = PointsKind;
 
 constexpr std::size_t most_panels = 16;
 constexpr double alone_px = 900, beside_px = 420;
-
-/// How a local measure becomes a color: `best` at the dark end, `worst` at the light one.
-struct ColorScale {
-  std::string name;
-  double best, worst;
-  std::vector<Tick> ticks;
-  ColorMap map = map_sequential;
-
-  Rgb operator()(double value) const { return color_at(map, (value - best) / (worst - best)); }
-};
-
-ColorScale scale_of(LocalMeasure what) {
-  switch (what) {
-    case LocalMeasure::beta_i:
-      return {"β_i = r_c^i / r_f^i",
-              0.5773502691896258,
-              1,
-              {{0.5773502691896258, "1/√3"}, {0.7, "0.7"}, {0.85, "0.85"}, {1, "≥ 1"}}};
-    case LocalMeasure::nearest:
-      return {"nearest distance / d_{hex}",
-              1,
-              0.5,
-              {{1, "1"}, {0.9, "0.9"}, {0.8, "0.8"}, {0.7, "0.7"}, {0.5, "≤ 0.5"}}};
-    case LocalMeasure::area:
-      return {"cell area / mean",
-              0.6,
-              1.4,
-              {{0.6, "≤ 0.6"}, {0.8, "0.8"}, {1, "1"}, {1.2, "1.2"}, {1.4, "≥ 1.4"}},
-              map_diverging};
-    case LocalMeasure::valence:
-      return {
-          "Delaunay neighbors", 4, 8, {{4, "≤ 4"}, {5, "5"}, {6, "6"}, {7, "7"}, {8, "≥ 8"}}, map_diverging};
-    case LocalMeasure::angle:
-      return {
-          "smallest angle, degrees", 60, 20, {{60, "60"}, {50, "50"}, {40, "40"}, {30, "30"}, {20, "≤ 20"}}};
-    case LocalMeasure::psi6:
-      break;
-  }
-  return {"|ψ_6|", 1, 0, {{1, "1"}, {0.75, "0.75"}, {0.5, "0.5"}, {0.25, "0.25"}, {0, "0"}}};
-}
 
 /// Domain to pixels, y up.
 struct View {
@@ -166,8 +129,7 @@ class Panel {
 
   /// In the color of the end that is farther from the best.
   void edge(std::size_t i, const Spoke& spoke, Canvas& canvas) const {
-    double worse = value(spoke.id);
-    if (scale_ && std::abs(value(i) - scale_->best) > std::abs(worse - scale_->best)) worse = value(i);
+    const double worse = scale_ ? scale_->worse(value(i), value(spoke.id)) : 0;
     const Pen pen{scale_ ? color(worse) : Rgb{120, 140, 160}, std::clamp(0.8 * sample_px_, 0.4, 3.0)};
     Extent extent;
     extent.include(spoke.offset);
@@ -177,7 +139,7 @@ class Panel {
   void samples(Canvas& canvas) const {
     const bool alone = kind_ == Kind::points;
     const double radius_px = alone ? 2.5 * sample_px_ : sample_px_, radius = radius_px / view_.scale;
-    const bool on_dark = kind_ == Kind::voronoi && scale_ && scale_->map.data() == map_sequential.data();
+    const bool on_dark = kind_ == Kind::voronoi && scale_ && scale_->is_dark();
     const Rgb dark{17, 17, 17}, plain = on_dark ? paper : dark;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Rgb fill = alone && scale_ ? color(value(i)) : plain;
@@ -200,9 +162,10 @@ class Panel {
 };
 
 /// A panel, and below it what was measured.
-Drawing panel_of(const PointSet& points, Kind kind, std::optional<LocalMeasure> color, double size_px,
+template <class AnyPanel>
+Drawing panel_as(const PointSet& points, Kind kind, std::optional<LocalMeasure> color, double size_px,
                  const Control& control) {
-  const auto panel = std::make_shared<const Panel>(points, kind, color, size_px, control);
+  const auto panel = std::make_shared<const AnyPanel>(points, kind, color, size_px, control);
   const Spacing& s = panel->spacing();
   Drawing picture{panel->width_px(), panel->height_px(),
                   std::to_string(s.n) + " points, beta " + number_label(s.beta, 4),
@@ -213,6 +176,12 @@ Drawing panel_of(const PointSet& points, Kind kind, std::optional<LocalMeasure> 
       std::max(200.0, panel->width_px()), size_px < 500 ? 12 : 13);
   numbers.title.clear();
   return stack_of({std::move(picture), std::move(numbers)}, 8);
+}
+
+Drawing panel_of(const PointSet& points, Kind kind, std::optional<LocalMeasure> color, double size_px,
+                 const Control& control) {
+  return is_torus(*points.domain) ? panel_as<Panel>(points, kind, color, size_px, control)
+                                  : panel_as<MeshPanel>(points, kind, color, size_px, control);
 }
 
 /// With the name of its group, and its number if the group has others.
@@ -271,7 +240,6 @@ Drawing make(Kind kind, std::span<const PictureGroup> groups, const Arguments& a
 Picture row(const char* name, const char* title, const char* description) {
   Picture picture;
   picture.name = name;
-  picture.needs_torus = true;
   picture.title = title;
   picture.description = description;
   Parameter color;

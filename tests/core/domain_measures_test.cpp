@@ -1,0 +1,108 @@
+// Distributions, local measures and bond order on every domain, against the triangles of meshes.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/analyze/bond_order.h"
+#include "core/analyze/distributions.h"
+#include "core/analyze/local_measures.h"
+#include "core/analyze/spacing.h"
+#include "core/math.h"
+#include "core/mesh/mesh_quality.h"
+#include "core/mesh/meshing.h"
+#include "tests/support/domains.h"
+
+namespace wellspaced {
+namespace {
+
+const Control plain;
+
+/// The angles of all triangles, in degrees.
+std::vector<double> angles_of(const Mesh& mesh) {
+  std::vector<double> angles;
+  for (std::size_t f = 0; f < mesh.faces(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 at = mesh.vertices[mesh[f][k]];
+      const Vec3 a = mesh.vertices[mesh[f][(k + 1) % 3]] - at, b = mesh.vertices[mesh[f][(k + 2) % 3]] - at;
+      angles.push_back(180 / pi * std::acos(dot(a, b) / (norm(a) * norm(b))));
+    }
+  return angles;
+}
+
+std::uint64_t total(const Histogram& histogram) { return histogram.total(); }
+
+TEST(DomainMeasures, CountTheTrianglesAndEdgesOfTheMesh) {
+  for (const auto& [name, domain] : testing::domains_of_every_kind()) {
+    if (name == "torus") continue;
+    SCOPED_TRACE(name);
+    const PointSet points = testing::mps_on(domain, 300, 4);
+    const Mesh mesh = delaunay_mesh(points, plain);
+    const MeshQuality quality = measure_quality(mesh);
+    const Distributions all = distributions(points, plain);
+    EXPECT_EQ(total(all.valence), points.size());
+    // Neighbors are points whose cells touch inside: at a boundary some triangle may be of others.
+    const double left_out = domain->is_flat() ? 0.02 : 0;
+    const auto triangles = static_cast<double>(mesh.faces()),
+               edges = static_cast<double>(quality.topology->edges);
+    EXPECT_LE(total(all.angle_deg), 3 * mesh.faces());
+    EXPECT_GE(static_cast<double>(total(all.angle_deg)), (1 - left_out) * 3 * triangles);
+    EXPECT_LE(total(all.edge), quality.topology->edges);
+    EXPECT_GE(static_cast<double>(total(all.edge)), (1 - left_out) * edges);
+    EXPECT_NEAR(all.valence.mean, 2 * edges / static_cast<double>(points.size()), 6 * left_out + 1e-9);
+    std::vector<double> angles = angles_of(mesh);
+    const double slack =
+        domain->is_flat() ? 1e-6 : 1;  // triangles on a sphere are a little larger than flat ones
+    EXPECT_GE(all.angle_deg.min, *std::min_element(angles.begin(), angles.end()) - slack);
+    EXPECT_LE(all.angle_deg.max, *std::max_element(angles.begin(), angles.end()) + slack);
+    EXPECT_NEAR(all.angle_deg.mean, 60, 1);
+  }
+}
+
+TEST(DomainMeasures, AgreeWithSpacing) {
+  for (const auto& [name, domain] : testing::domains_of_every_kind()) {
+    SCOPED_TRACE(name);
+    const PointSet points = testing::mps_on(domain, 300, 4);
+    const LocalSpacing spacing = measure_local_spacing(points, plain);
+    const Distributions all = distributions(points, plain);
+    EXPECT_NEAR(all.beta_i.max, spacing.global.beta_i_max, 1e-12);
+    EXPECT_NEAR(all.beta_i.mean, spacing.global.beta_i_mean, 1e-12);
+    EXPECT_NEAR(all.nearest.min, spacing.global.r_f / hexagonal_spacing(*domain, points.size()), 1e-9);
+    EXPECT_NEAR(all.cell_area.mean, 1, 1e-9);
+    EXPECT_NEAR(all.cell_area.sd, spacing.global.cell_area_sd, 1e-9);
+    EXPECT_GE(all.angle_deg.min, spacing.global.angle_min_deg - 1e-6);
+    const std::vector<double> beta_i = measure_locally(points, LocalMeasure::beta_i, plain);
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(beta_i[i], spacing.beta_i[i], 1e-12);
+    const std::vector<double> areas = measure_locally(points, LocalMeasure::area, plain),
+                              angles = measure_locally(points, LocalMeasure::angle, plain),
+                              valences = measure_locally(points, LocalMeasure::valence, plain);
+    EXPECT_NEAR(*std::max_element(areas.begin(), areas.end()), all.cell_area.max, 1e-9);
+    EXPECT_NEAR(*std::min_element(angles.begin(), angles.end()), spacing.global.angle_min_deg, 1e-6);
+    EXPECT_EQ(*std::max_element(valences.begin(), valences.end()), spacing.global.valence.rbegin()->first);
+  }
+}
+
+TEST(DomainMeasures, SeeTheOrderOfALatticeInABox) {
+  PointSet points{std::make_shared<BoxDomain>(1, 1), {}};
+  Rng rng(1);
+  for (int row = 0; row < 16; ++row)
+    for (int column = 0; column < 14; ++column) {
+      const double x = (column + 0.3 + 0.5 * (row % 2)) / 14.9, y = (row + 0.5) * std::sqrt(3) / 2 / 14.9;
+      points.push_back({x, y, 0});
+    }
+  const BondOrder order = bond_order(points, plain);
+  EXPECT_GT(order.psi6_global, 0.8) << "but at the boundary all directions are sixfold";
+  EXPECT_GT(order.psi6_local, 0.8);
+  const auto sphere = std::make_shared<Sphere>(1);
+  const BondOrder curved = bond_order(testing::mps_on(sphere, 200, 1), plain);
+  EXPECT_TRUE(std::isnan(curved.psi6_global));
+  EXPECT_GT(curved.psi6_local, 0.1);
+  EXPECT_LT(curved.psi6_local, 0.7);
+}
+
+}  // namespace
+}  // namespace wellspaced
