@@ -6,11 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include "core/domain/cgal_triangulation.h"
 #include "core/mesh/border_chains.h"
 #include "core/mesh/planar_meshes.h"
@@ -19,14 +14,8 @@
 namespace wellspaced {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<signed char, Kernel,
-                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Kernel = InexactKernel;
+using Triangulation = ConstrainedTriangulation;
 
 Vec2 planar(Vec3 p) { return {p.x, p.y}; }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <memory>
 #include <string>
@@ -11,16 +12,19 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analyze/local_measures.h"
 #include "core/analyze/spacing.h"
 #include "core/domain/sizing.h"
 #include "core/domain/surface_mesh.h"
 #include "core/generate/domain_refinement.h"
 #include "core/generate/enrich.h"
 #include "core/generate/jittered.h"
+#include "core/mesh/meshing.h"
 #include "core/optimize/opt_beta.h"
 #include "core/voronoi/corner_settler.h"
 #include "core/voronoi/moving_set.h"
 #include "tests/support/domains.h"
+#include "tests/support/geodesic_oracle.h"
 #include "tests/support/meshes.h"
 
 namespace wellspaced {
@@ -146,6 +150,58 @@ TEST(MeshSets, ReachTheirBetaWithAndWithoutSizing) {
       if (sized) continue;
       EXPECT_LE(deepest_of_many(*mesh, result.points, 2 * after.r_c, 500), after.r_c * (1 + 1e-9));
     }
+}
+
+/// From a place to the nearest of the points that may be it, by CGAL's exact geodesics.
+double exact_depth(testing::GeodesicOracle& oracle, const SurfaceMesh& mesh, const PointSet& points,
+                   Vec3 place, double reach, std::size_t but) {
+  std::vector<MeshPlace> near;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i != but && norm(points[i] - place) <= reach) near.push_back(mesh.locate(points[i]));
+  const std::vector<double> distances = oracle.distances(mesh.locate(place), near);
+  return *std::min_element(distances.begin(), distances.end());
+}
+
+/// 100 points with their nearest neighbors, which r_f is the least of, and 100 corners of cells, which r_c is
+/// the largest of, on a surface whose features are 20 radii and more.
+TEST(MeshSets, HaveRadiiWithinAPercentOfExactGeodesics) {
+  constexpr std::size_t none = ~std::size_t{0};
+  std::vector<std::pair<std::string, std::shared_ptr<const SurfaceMesh>>> surfaces = {
+      {"sphere", std::make_shared<const SurfaceMesh>(
+                     TriangleMesh(testing::refined_sphere(testing::icosahedron(), 3)))}};
+  if (const std::string data = testing::shared_data(); !data.empty())
+    surfaces.emplace_back("eight", std::make_shared<const SurfaceMesh>(
+                                       TriangleMesh(testing::read_triangles(data + "/meshes/eight.off"))));
+  for (const auto& [name, mesh] : surfaces) {
+    SCOPED_TRACE(name);
+    const double radius = mesh->smallest_feature().length / 20;
+    DiskRule rule;
+    rule.scale = radius;
+    Rng rng(9);
+    Control control;
+    const PointSet points = throw_darts_over(mesh, rule, rng, control);
+    const LocalSpacing spacing = measure_local_spacing(points, plain);
+    const std::vector<double> nearest = measure_locally(points, LocalMeasure::nearest, plain);
+    const double unit = MovingSet(points, plain).spacing(), reach = 2 * spacing.global.r_c;
+    const Mesh cells = voronoi_mesh(points, plain);
+    testing::GeodesicOracle oracle(mesh->mesh());
+    double worst_r_f = 0, worst_r_c = 0;
+    for (int pair = 0; pair < 100; ++pair) {
+      const std::size_t i = rng.below(points.size()), v = rng.below(cells.vertices.size());
+      const double exact_r_f = exact_depth(oracle, *mesh, points, points[i], reach, i);
+      worst_r_f = std::max(worst_r_f, std::fabs(nearest[i] * unit / exact_r_f - 1));
+      const Vec3 corner = cells.vertices[v];
+      const double exact_r_c = exact_depth(oracle, *mesh, points, corner, reach, none);
+      const double ours = depth(*mesh, points, corner, reach);
+      worst_r_c = std::max(worst_r_c, std::fabs(ours / exact_r_c - 1));
+      EXPECT_LE(exact_r_c, spacing.global.r_c * 1.01);
+    }
+    EXPECT_LE(worst_r_f, 0.01);
+    EXPECT_LE(worst_r_c, 0.01);
+    std::cout << name << ", " << points.size() << " points " << radius
+              << " apart: largest error of 100 nearest distances " << worst_r_f
+              << ", of 100 corners of cells " << worst_r_c << '\n';
+  }
 }
 
 }  // namespace
