@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,8 @@ class Descent {
       const double first = leap();
       if (options_.beta < first) lower(first);
     }
+    if constexpr (std::is_same_v<State, MovingSet>)
+      if (best_beta_ > options_.beta && !options_.max_visits) settle_for_less();
     return result();
   }
 
@@ -214,6 +217,25 @@ class Descent {
       step = std::max(smallest_step, step * .9);
       ripen(ripening.next());
       start = mesh_.snapshot();
+    }
+  }
+
+  /// Some targets can't be had, as where a curve of the boundary has too many points, which stay on it; and
+  /// points that go after one are no better off for it. So the least that can be had is looked for, between
+  /// the target and the best so far, each time from the last state that was clean.
+  void settle_for_less() {
+    constexpr double visits_a_point = 40, fewest_visits = 2e4, near = 2e-3;
+    const double most = std::max(fewest_visits, visits_a_point * static_cast<double>(mesh_.size()));
+    double low = options_.beta, high = std::min(best_beta_, .99);
+    typename State::Places start = input_.coordinates;
+    while (high - low > near) {
+      const double middle = 0.5 * (low + high);
+      budget_ = visits_ + most;
+      mesh_.put(start);
+      const bool clean = relax(opt_beta_targets(middle, options_.randomness), {most, no_limit, true});
+      record();
+      if (clean) start = mesh_.places();
+      (clean ? high : low) = middle;
     }
   }
 

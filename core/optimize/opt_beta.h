@@ -39,6 +39,10 @@ int expected_visits(const OptBetaOptions& options);
 /// with them randomness. At 10,000 points .667 takes 3 s and leaves 16 to 19 % of them (.67: 20 %, .69: 31 %)
 /// and oscillations of 4.8; at .66 there are 2 to 7 % and the set is nearly a crystal.
 ///
+/// On other domains, where the target isn't reached and max_visits was not given, the least beta that is
+/// reached is looked for between the two, to .002: a boundary may rule out the target, for points stay on
+/// their curves.
+///
 /// What freezes on the way to .70, such as a lattice, is shaken by .03 d_hex and moved on by other targets.
 ///
 /// Sets that a StarMesh can't hold are optimized by opt_beta_local instead: for good if they have fewer than

@@ -403,5 +403,30 @@ TEST(Cvt, EnergyNeverRisesOnAnyDomain) {
     }
 }
 
+/// The outline of Table 1 (reproduce/sections/polygons.py). With this seed one of its edges has so many
+/// points that .75 can't be had.
+TEST(OptBeta, ComesNearToTheLeastThatABoundaryLeavesRoomFor) {
+  const auto outline = std::make_shared<Polygon>(
+      std::vector<std::vector<Vec2>>{{{0, 0},
+                                      {0.9, 0},
+                                      {1, 0.12},
+                                      {1, 0.55},
+                                      {0.72, 0.55},
+                                      {0.62, 0.4},
+                                      {0.5, 0.55},
+                                      {0.5, 0.8},
+                                      {0.15, 0.8},
+                                      {0, 0.62}},
+                                     {{0.2, 0.2}, {0.32, 0.14}, {0.4, 0.22}, {0.36, 0.36}, {0.24, 0.38}}});
+  Control control;
+  Rng rng(0);
+  DiskRule rule;
+  rule.scale = 0.0314;
+  const PointSet points = throw_darts_over(outline, rule, rng, control);
+  const OptimizeResult result = opt_beta(points, {.beta = 0.75}, control);
+  EXPECT_EQ(result.converged, false);
+  EXPECT_LE(measure_spacing(result.points, control).beta, 0.79);
+}
+
 }  // namespace
 }  // namespace wellspaced
