@@ -32,7 +32,7 @@ PointSet refined(PointSet points, double scale, std::size_t expected, std::uint6
   DiskRule rule;
   rule.scale = scale;
   NeighborGrid grid(points, scale, expected);
-  HoleFiller filler(points, grid, rule, control);
+  HoleFiller filler(points, grid, rule, control, HoleFiller::Search::wide);
   if (count == 0)
     filler.fill();
   else

@@ -40,7 +40,7 @@ PointSet enrich(const PointSet& points, double coverage, Control& control) {
     rule.scale = coverage;
     rule.sizing = points.sizing.get();
     NeighborGrid grid(enriched, rule.least());
-    HoleFiller(enriched, grid, rule, control).fill();
+    HoleFiller(enriched, grid, rule, control, HoleFiller::Search::wide).fill();
     control.report({1});
     return enriched;
   }

@@ -17,11 +17,13 @@ bool HoleFiller::ComesLater::operator()(const Hole& a, const Hole& b) const {
   return std::tuple(-a.depth, a.at.z, a.at.y, a.at.x) > std::tuple(-b.depth, b.at.z, b.at.y, b.at.x);
 }
 
-HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control)
+HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control,
+                       Search search)
     : points_(points),
       grid_(grid),
       rule_(rule),
       control_(control),
+      deepened_(search == Search::wide && !points.domain->has_exact_cells() ? 1.15 : 1),
       finder_(points, grid, 0, control),
       settler_(points, grid) {}
 
@@ -82,8 +84,7 @@ void HoleFiller::look_at_corner(CornerSettler::Corner corner, bool is_outer, dou
   if (is_outer && !on_rim) return;
   if (on_rim) corner.at = *on_rim;
   const auto depth = [&] { return corner.distance / rule_.distance(rule_.radius(corner.at), r); };
-  constexpr double settled_over_claimed = 1.15;  // seen at the most where points are few
-  if (depth() * (domain.has_exact_cells() ? 1 : settled_over_claimed) <= deeper_than) return;
+  if (depth() * deepened_ <= deeper_than) return;
   if (!domain.has_exact_cells()) corner = settler_.settle(corner.at, corner.distance, is_outer);
   if (depth() <= deeper_than) return;
   heap_.push_back({depth(), corner.at});

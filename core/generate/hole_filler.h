@@ -22,7 +22,11 @@ namespace wellspaced {
 /// Errors of all calls: cancelled, deadline_exceeded. Cost: 1.5 us a point at first, 10 us an insertion.
 class HoleFiller {
  public:
-  HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control);
+  /// `Search::wide` where holes may be large: corners are then looked at that claim to be shallow by up to an
+  /// eighth, as on curved surfaces they may be deeper than their cells say.
+  enum class Search { narrow, wide };
+  HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rule, Control& control,
+             Search search = Search::narrow);
 
   /// Until no corner is deeper than rule.coverage (1 + 1e-9).
   void fill();
@@ -49,6 +53,7 @@ class HoleFiller {
   NeighborGrid& grid_;
   const DiskRule& rule_;
   Control& control_;
+  double deepened_;  ///< how much deeper than it claims a corner may be
   CellFinder finder_;
   CornerSettler settler_;
   std::vector<Hole> heap_;

@@ -423,7 +423,7 @@ TEST(OptBeta, ComesNearToTheLeastThatABoundaryLeavesRoomFor) {
   DiskRule rule;
   rule.scale = 0.0314;
   const PointSet points = throw_darts_over(outline, rule, rng, control);
-  const OptimizeResult result = opt_beta(points, {.beta = 0.75}, control);
+  const OptimizeResult result = opt_beta(points, {0.75, OptBetaOptions::Randomness::gentle, {}}, control);
   EXPECT_EQ(result.converged, false);
   EXPECT_LE(measure_spacing(result.points, control).beta, 0.79);
 }
