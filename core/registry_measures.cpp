@@ -46,6 +46,12 @@ double range_of(const Arguments& arguments, double fallback) {
   return argument(arguments, "range").value_or(fallback);
 }
 
+void SetsSize::take_shape_of(const Domain& domain) {
+  const Vec3 sides = domain.box().size;
+  height_over_width = sides.z > 0 ? 1 : sides.y / sides.x;
+  aspect = std::max(height_over_width, 1 / height_over_width);
+}
+
 Cost periodogram_cost(const SetsSize& size, double range) {
   const double k_max = k_max_of(size.n, size.aspect, range);
   if (!(k_max <= largest_k_max)) return {1e9, 1e30};

@@ -5,6 +5,7 @@
 #include "core/analyze/differential.h"
 #include "core/analyze/pair_correlation.h"
 #include "core/analyze/zone_plate.h"
+#include "core/domain/domain.h"
 #include "core/registry.h"
 
 namespace wellspaced {
@@ -16,6 +17,9 @@ struct SetsSize {
   double aspect = 1;             ///< longer over shorter side of the domain
   double height_over_width = 1;  ///< of the domain
   bool alone = true;             ///< nothing is compared with them
+
+  /// Curved domains are drawn in a square.
+  void take_shape_of(const Domain& domain);
 };
 
 // Options of measures as parameters, for the measure and for the picture of it.

@@ -61,9 +61,7 @@ SetsSize size_of(const SourceGroup& group) {
   SetsSize size;
   for (const PointSource& set : group.sets) size.n = std::max(size.n, expected_points(set));
   size.sets = static_cast<double>(group.sets.size());
-  const Vec3 sides = domain_of(group.sets.front()).box().size;
-  size.height_over_width = sides.z > 0 ? 1 : sides.y / sides.x;  // curved domains are drawn in a square
-  size.aspect = std::max(size.height_over_width, 1 / size.height_over_width);
+  size.take_shape_of(domain_of(group.sets.front()));
   return size;
 }
 

@@ -48,12 +48,10 @@ class Subject {
     for (SetsSize& group : groups_) group.alone = groups_.size() == 1;
   }
   void add(double points, const Domain& domain) {
-    const Vec3 sides = domain.box().size;
     SetsSize& group = groups_.back();
     group.n = std::max(group.n, points);
     group.sets += 1;
-    group.height_over_width = sides.z > 0 ? 1 : sides.y / sides.x;  // curved domains are drawn in a square
-    group.aspect = std::max(group.height_over_width, 1 / group.height_over_width);
+    group.take_shape_of(domain);
   }
 
   std::span<const SetsSize> groups() const { return groups_; }

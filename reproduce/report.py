@@ -108,6 +108,17 @@ def agrees(condition):
     return Html('<span class="holds">agrees</span>' if condition else '<span class="fails">DIFFERS</span>')
 
 
+def bar_verdict(upper, bar, beaten_by=()):
+    """Whether what is proven keeps to a bar, and no rival is better."""
+    if upper is None:
+        return Html('<span class="unknown">not proven</span>')
+    if upper > bar:
+        return Html(f'<span class="fails">above {bar:.2f}</span>')
+    if beaten_by:
+        return Html(f'<span class="fails">beaten by {escape(", ".join(beaten_by))}</span>')
+    return Html(f'<span class="holds">at most {bar:.2f}</span>')
+
+
 def not_available():
     return Html(f'<span class="unknown">{html.escape(paper.NOT_AVAILABLE_SHORT)}</span>')
 

@@ -62,16 +62,9 @@ void bound_by_border(const MovingSet& set, std::size_t i, const BorderNeighbors&
     StarMap::Spoke spoke;
     spoke.id = j;
     if (!seen.empty()) spoke.way = set.domain().way_to(set[i], seen.front());
-    // Beside the outside: before all others, or after them.
-    auto gap = std::find_if(star.begin(), star.end(), [](const StarMap::Spoke& s) { return !s.closes; });
-    if (gap == star.end()) {
-      star.push_back(spoke);
-      continue;
-    }
-    const bool opens = j == beside.after;  // the outside lies before it
-    spoke.closes = opens;
-    if (!opens) gap->closes = true;
-    star.insert(gap + 1, spoke);
+    const auto gap =
+        std::find_if(star.begin(), star.end(), [](const StarMap::Spoke& s) { return !s.closes; });
+    star.insert(gap == star.end() ? gap : gap + 1, spoke);
   }
   for (std::size_t k = 0; k < star.size(); ++k) star[k].closes = star[k].id != beside.before;
 }

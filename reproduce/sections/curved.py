@@ -5,7 +5,7 @@ import pathlib
 
 from reproduce import bodies, paper
 from reproduce.mesh_drawing import draw
-from reproduce.report import Html, number
+from reproduce.report import Html, bar_verdict, number
 
 SPHERE = {"type": "sphere", "radius": 1}
 SPHERE_BAR = 0.72
@@ -66,7 +66,7 @@ def sphere(context, section):
         (f"cvt, Lloyd, {sweeps} sweeps", "cvt", {"variant": "lloyd", "max_sweeps": sweeps}),
         ("far-point", "far-point", {"max_sweeps": sweeps})])
     upper = job.groups[1]["certificate"]["beta_upper"]
-    section.finding("sphere", paper.SPHERE, f"{number(upper)} by proof", verdict(upper, SPHERE_BAR))
+    section.finding("sphere", paper.SPHERE, f"{number(upper)} by proof", bar_verdict(upper, SPHERE_BAR))
     section.figure(meshes(context, "voronoi", start, bodies.optimized(start, "opt-beta", beta=SPHERE_BAR), azimuth_deg=20, tilt_deg=20),
                    "Voronoi cells of 1000 points, colored by their corners.", "Voronoi cells on a sphere before and after")
     section.text(f"What the paper says: {paper.SPHERE}. Where it differs: beta here is proven, and the lower one comes of an optimizer "
@@ -101,9 +101,3 @@ def surface(context, section):
                     Html(f'<span class="{"holds" if falls else "fails"}">{"falls" if falls else "does not fall"}</span>'))
     section.figure(meshes(context, "delaunay", start, bodies.optimized(start, "opt-beta", beta=0.80), azimuth_deg=200, tilt_deg=25, up=1),
                    "Delaunay triangles of the points, on the surface.", "A triangulated surface, before and after")
-
-
-def verdict(upper, bar):
-    if upper is None:
-        return Html('<span class="unknown">not proven</span>')
-    return Html(f'<span class="{"holds" if upper <= bar else "fails"}">{"at most" if upper <= bar else "above"} {bar:.2f}</span>')

@@ -2,7 +2,7 @@
 
 from reproduce import bodies, paper
 from reproduce.mesh_drawing import draw
-from reproduce.report import Html, number
+from reproduce.report import bar_verdict, number
 
 # Ours: the paper's outline is not published. Its radii are kept.
 OUTLINE = {"type": "polygon", "rings": [
@@ -46,7 +46,7 @@ def fill(context, section):
         ours = {group["label"]: group for group in job.groups}["opt-beta to 0.75"]
         upper = ours["certificate"]["beta_upper"]
         section.finding(f"bounded domain, {name}", f"beta {paper.TABLE_1.values[k]} [{paper.TABLE_1.source}]",
-                        f"{number(upper)} by proof", verdict(upper, BARS[k], rivals_beat(job.groups, ours)))
+                        f"{number(upper)} by proof", bar_verdict(upper, BARS[k], rivals_beat(job.groups, ours)))
     section.text("Where it differs: " + why(jobs), "differs")
     meshes = [(method, [context.client.job("mesh", {"points": points, "method": method}) for points in ends()])
               for method in ("delaunay", "voronoi")]
@@ -84,14 +84,6 @@ def rivals_beat(groups, ours):
         return (None not in (a["beta"], b["beta"]) and a["beta"] < b["beta"] and a["r_c"] < b["r_c"]
                 and a["r_f_free"] > b["r_f_free"])
     return [group["label"] for group in groups if group is not ours and better(group)]
-
-
-def verdict(upper, bar, beaten_by):
-    if upper is None:
-        return Html('<span class="unknown">not proven</span>')
-    good = upper <= bar and not beaten_by
-    text = f"at most {bar:.2f}" if good else f"above {bar:.2f}" if upper > bar else f"beaten by {', '.join(beaten_by)}"
-    return Html(f'<span class="{"holds" if good else "fails"}">{text}</span>')
 
 
 def why(jobs):

@@ -130,16 +130,16 @@ std::optional<std::string> live_job_that_needs(sqlite::Connection& connection, c
   return row.text(0);
 }
 
-std::vector<std::string> with_result_over(sqlite::Connection& connection, std::int64_t now_ms, int limit) {
-  return ids_of(connection.query(
-      "SELECT id FROM job WHERE result_kept = 1 AND expires <= ?1 AND NOT EXISTS (SELECT 1 FROM job AS user"
-      " WHERE user.needs = job.id AND user.needs <> '' AND user.state IN ('accepted', 'running')) LIMIT ?2",
-      now_ms, limit));
-}
-
-std::vector<std::string> over_for_good(sqlite::Connection& connection, std::int64_t time_ms, int limit) {
-  return ids_of(connection.query("SELECT id FROM job WHERE expires <= ?1 AND result_kept = 0 LIMIT ?2",
-                                 time_ms, limit));
+std::vector<LostRun> with_lease_until(sqlite::Connection& connection, std::int64_t time_ms) {
+  sqlite::Query row = connection.query(
+      "SELECT id, crashes + 1, attached, cancel FROM job WHERE state = 'running' AND lease_until <= ?1 ORDER "
+      "BY id",
+      time_ms);
+  std::vector<LostRun> runs;
+  while (row.step()) {
+    runs.push_back({row.text(0), static_cast<int>(row.integer(1)), row.integer(2) != 0, row.integer(3) != 0});
+  }
+  return runs;
 }
 
 void append_event(sqlite::Connection& connection, const std::string& id, const std::string& type,
@@ -179,6 +179,26 @@ void erase(sqlite::Connection& connection, const std::string& id) {
   connection.run("DELETE FROM blob WHERE job = ?1", id);
   connection.run("DELETE FROM job_domain WHERE job = ?1", id);
   connection.run("DELETE FROM job WHERE id = ?1", id);
+}
+
+int drop_results(sqlite::Connection& connection, std::int64_t time_ms, int limit) {
+  const std::vector<std::string> ids = ids_of(connection.query(
+      "SELECT id FROM job WHERE result_kept = 1 AND expires <= ?1 AND NOT EXISTS (SELECT 1 FROM job AS user"
+      " WHERE user.needs = job.id AND user.needs <> '' AND user.state IN ('accepted', 'running')) LIMIT ?2",
+      time_ms, limit));
+  for (const std::string& id : ids) {
+    connection.run("DELETE FROM blob WHERE job = ?1", id);
+    connection.run("DELETE FROM job_domain WHERE job = ?1", id);
+    connection.run("UPDATE job SET result_kept = 0, updated = ?2 WHERE id = ?1", id, time_ms);
+  }
+  return static_cast<int>(ids.size());
+}
+
+int drop_jobs(sqlite::Connection& connection, std::int64_t time_ms, int limit) {
+  const std::vector<std::string> ids = ids_of(connection.query(
+      "SELECT id FROM job WHERE expires <= ?1 AND result_kept = 0 LIMIT ?2", time_ms, limit));
+  for (const std::string& id : ids) erase(connection, id);
+  return static_cast<int>(ids.size());
 }
 
 }  // namespace wellspaced::rows

@@ -23,15 +23,20 @@ JobSpec spec_of(sqlite::Connection& connection, const std::string& id);
 /// Blobs are kept in rows of 1 MiB; `attempt` 0 is the request.
 void write_blob(sqlite::Connection& connection, const std::string& id, int attempt, const std::string& bytes);
 /// Errors: storage_unavailable if the rows don't add up to `size`.
+std::string read_blob(sqlite::Connection& connection, const std::string& id, int attempt, std::int64_t size);
+
 /// The id of an accepted or running job that takes its points from the result of job `id`, if there is one.
 std::optional<std::string> live_job_that_needs(sqlite::Connection& connection, const std::string& id);
 
-/// At most `limit` ids: of jobs whose result's time is over and that no live job needs; of jobs without a
-/// kept result whose `expires` is not after `time_ms`.
-std::vector<std::string> with_result_over(sqlite::Connection& connection, std::int64_t now_ms, int limit);
-std::vector<std::string> over_for_good(sqlite::Connection& connection, std::int64_t time_ms, int limit);
+/// A run whose worker is gone.
+struct LostRun {
+  std::string id;
+  int crashes = 0;  ///< with this one
+  bool attached = false, cancelled = false;
+};
 
-std::string read_blob(sqlite::Connection& connection, const std::string& id, int attempt, std::int64_t size);
+/// Running jobs whose worker's lease ended at `time_ms` or before.
+std::vector<LostRun> with_lease_until(sqlite::Connection& connection, std::int64_t time_ms);
 
 /// Keeps the newest `cap` events.
 void append_event(sqlite::Connection& connection, const std::string& id, const std::string& type,
@@ -43,5 +48,10 @@ std::vector<JobEvent> events_after(sqlite::Connection& connection, const std::st
 
 /// Deletes the job and all that belongs to it.
 void erase(sqlite::Connection& connection, const std::string& id);
+
+/// Drop at most `limit`: the results whose time is over and that no live job needs; the jobs without a kept
+/// result whose `expires` is not after `time_ms`. Return how many that were.
+int drop_results(sqlite::Connection& connection, std::int64_t time_ms, int limit);
+int drop_jobs(sqlite::Connection& connection, std::int64_t time_ms, int limit);
 
 }  // namespace wellspaced::rows

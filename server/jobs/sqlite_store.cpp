@@ -48,13 +48,6 @@ std::pair<dev_t, ino_t> identity(const std::string& path) {
   return {facts.st_dev, facts.st_ino};
 }
 
-/// A run whose worker is gone.
-struct LostRun {
-  std::string id;
-  int crashes = 0;  ///< with this one
-  bool attached = false, cancelled = false;
-};
-
 class SqliteStore final : public JobStore {
  public:
   SqliteStore(const std::string& path, const JobLimits& limits, const SqliteOptions& options);
@@ -112,12 +105,8 @@ class SqliteStore final : public JobStore {
   bool holds(const Claim& claim);
   void end(const std::string& id, const Ending& ending, std::int64_t now_ms);
   void requeue(const std::string& id, std::int64_t now_ms);
-  std::vector<LostRun> runs_with_lease_until(std::int64_t time_ms);
-  void settle(const LostRun& run, std::int64_t now_ms);
+  void settle(const rows::LostRun& run, std::int64_t now_ms);
   void recover();
-  int drop_results(std::int64_t now_ms);
-  int drop_jobs(std::int64_t now_ms);
-  int drop_domains(std::int64_t now_ms);
 
   const std::string path_;
   const JobLimits limits_;
@@ -197,7 +186,7 @@ std::string SqliteStore::next_id(std::int64_t now_ms) {
 
 std::optional<Claim> SqliteStore::claim(const std::string& worker, bool attached_only) {
   return write([&](std::int64_t now_ms) -> std::optional<Claim> {
-    for (const LostRun& run : runs_with_lease_until(now_ms)) settle(run, now_ms);
+    for (const rows::LostRun& run : rows::with_lease_until(writer_, now_ms)) settle(run, now_ms);
     Claim claim;
     {
       sqlite::Query taken = writer_.query(
@@ -217,19 +206,7 @@ std::optional<Claim> SqliteStore::claim(const std::string& worker, bool attached
   });
 }
 
-std::vector<LostRun> SqliteStore::runs_with_lease_until(std::int64_t time_ms) {
-  sqlite::Query row = writer_.query(
-      "SELECT id, crashes + 1, attached, cancel FROM job WHERE state = 'running' AND lease_until <= ?1 ORDER "
-      "BY id",
-      time_ms);
-  std::vector<LostRun> runs;
-  while (row.step()) {
-    runs.push_back({row.text(0), static_cast<int>(row.integer(1)), row.integer(2) != 0, row.integer(3) != 0});
-  }
-  return runs;
-}
-
-void SqliteStore::settle(const LostRun& run, std::int64_t now_ms) {
+void SqliteStore::settle(const rows::LostRun& run, std::int64_t now_ms) {
   writer_.run("UPDATE job SET crashes = ?2 WHERE id = ?1", run.id, run.crashes);
   if (run.cancelled) {
     end(run.id, {JobStatus::dismissed, "cancelled"}, now_ms);
@@ -246,8 +223,8 @@ void SqliteStore::settle(const LostRun& run, std::int64_t now_ms) {
 // Nobody else lives who could run or wait for anything in this file (see ProcessLock).
 void SqliteStore::recover() {
   write([&](std::int64_t now_ms) {
-    for (const LostRun& run : runs_with_lease_until(std::numeric_limits<std::int64_t>::max()))
-      settle(run, now_ms);
+    constexpr std::int64_t end_of_time = std::numeric_limits<std::int64_t>::max();
+    for (const rows::LostRun& run : rows::with_lease_until(writer_, end_of_time)) settle(run, now_ms);
     std::vector<std::string> orphans;
     for (sqlite::Query row = writer_.query("SELECT id FROM job WHERE state = 'accepted' AND attached = 1");
          row.step();) {
@@ -426,36 +403,20 @@ constexpr int kDropBatch = 16;
 
 int SqliteStore::expire() {
   int total = 0;
-  for (const auto drop : {&SqliteStore::drop_results, &SqliteStore::drop_jobs, &SqliteStore::drop_domains}) {
-    int dropped = 0;
-    do {
+  const auto drop_all = [&](auto drop, std::int64_t age_ms) {
+    int dropped = kDropBatch;
+    while (dropped == kDropBatch) {
       if (total > 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));  // a mutex isn't fair: let others in
-      dropped = write([&](std::int64_t now_ms) { return (this->*drop)(now_ms); });
+      dropped = write([&](std::int64_t now_ms) { return drop(writer_, now_ms - age_ms, kDropBatch); });
       total += dropped;
-    } while (dropped == kDropBatch);
-  }
+    }
+  };
+  drop_all(&rows::drop_results, 0);
+  drop_all(&rows::drop_jobs, limits_.keep_result_ms);
+  drop_all(&rows::drop_domains, 0);
   return total;
 }
-
-int SqliteStore::drop_results(std::int64_t now_ms) {
-  const std::vector<std::string> ids = rows::with_result_over(writer_, now_ms, kDropBatch);
-  for (const std::string& id : ids) {
-    writer_.run("DELETE FROM blob WHERE job = ?1", id);
-    writer_.run("DELETE FROM job_domain WHERE job = ?1", id);
-    writer_.run("UPDATE job SET result_kept = 0, updated = ?2 WHERE id = ?1", id, now_ms);
-  }
-  return static_cast<int>(ids.size());
-}
-
-int SqliteStore::drop_jobs(std::int64_t now_ms) {
-  const std::vector<std::string> ids =
-      rows::over_for_good(writer_, now_ms - limits_.keep_result_ms, kDropBatch);
-  for (const std::string& id : ids) rows::erase(writer_, id);
-  return static_cast<int>(ids.size());
-}
-
-int SqliteStore::drop_domains(std::int64_t now_ms) { return rows::drop_domains(writer_, now_ms, kDropBatch); }
 
 // ---- domains
 

@@ -104,32 +104,32 @@ void MeshPanel::draw_edges(std::size_t face, Vec2 by, Canvas& canvas) const {
   }
 }
 
-/// What goes on across a seam is drawn on both sides of it.
-void MeshPanel::draw_plane(Canvas& canvas) const {
-  const Box box = points_.domain->box();
-  const int x = box.periodic[0] ? 1 : 0, y = box.periodic[1] ? 1 : 0;
+void MeshPanel::draw_faces(Vec2 by, Canvas& canvas) const {
   const Pen pen{paper, std::clamp(sample_px_ / 3, 0.15, 1.0)};
   std::vector<Vec2> placed;
-  for (int turn = -1; turn <= 1; ++turn) {
-    if (turn != 0 && x + y == 0) continue;
-    const Vec2 by{turn * x * width_px_, -turn * y * height_px_};
-    for (std::size_t f = 0; f < mesh_.faces() && kind_ != PointsKind::points; ++f) {
-      if (f % 256 == 0) control_.check();
-      if (kind_ == PointsKind::delaunay) {
-        draw_edges(f, by, canvas);
-        continue;
-      }
-      placed.clear();
-      for (const std::uint32_t v : mesh_[f]) placed.push_back(by + vertices_[v].at);
-      canvas.polygon(placed, {color(value(mesh_.face_points[f])), pen});
+  for (std::size_t f = 0; f < mesh_.faces(); ++f) {
+    if (f % 256 == 0) control_.check();
+    if (kind_ == PointsKind::delaunay) {
+      draw_edges(f, by, canvas);
+      continue;
     }
+    placed.clear();
+    for (const std::uint32_t v : mesh_[f]) placed.push_back(by + vertices_[v].at);
+    canvas.polygon(placed, {color(value(mesh_.face_points[f])), pen});
   }
-  for (int turn = -1; turn <= 1; ++turn) {
-    if (turn != 0 && x + y == 0) continue;
-    const Vec2 by{turn * x * width_px_, -turn * y * height_px_};
+}
+
+/// What goes on across a seam is drawn on both sides of it; points on top of all faces.
+void MeshPanel::draw_plane(Canvas& canvas) const {
+  const Box box = points_.domain->box();
+  const Vec2 turn{box.periodic[0] ? width_px_ : 0, box.periodic[1] ? -height_px_ : 0};
+  std::vector<Vec2> images = {{0, 0}};
+  if (box.periodic[0] || box.periodic[1]) images = {-1 * turn, {0, 0}, turn};
+  if (kind_ != PointsKind::points)
+    for (const Vec2 by : images) draw_faces(by, canvas);
+  for (const Vec2 by : images)
     for (std::uint32_t i = 0; i < samples_.size(); ++i)
       canvas.circle(by + samples_[i].at, sample_radius_px(), {sample_color(i), std::nullopt});
-  }
 }
 
 void MeshPanel::draw_outline(Canvas& canvas) const {

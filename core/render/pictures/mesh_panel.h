@@ -43,6 +43,7 @@ class MeshPanel {
   Rgb sample_color(std::uint32_t point) const;
   double sample_radius_px() const { return kind_ == PointsKind::points ? 2.5 * sample_px_ : sample_px_; }
 
+  void draw_faces(Vec2 by, Canvas& canvas) const;
   void draw_plane(Canvas& canvas) const;
   void draw_outline(Canvas& canvas) const;
   void draw_space(Canvas& canvas) const;
