@@ -42,16 +42,41 @@ void HoleFiller::fill() {
 double HoleFiller::fill_to(std::size_t count) {
   const bool once = points_.domain->has_exact_cells();
   Hole hole{};
-  for (bool found = true; found && points_.size() < count;) {
+  while (points_.size() < count) {
     collect(0);
-    found = false;
-    const std::size_t until = once ? count : std::min(count, points_.size() + points_.size() / 8 + 1);
-    while (points_.size() < until && take_deepest(0, hole)) {
-      insert(hole, 0);
-      found = true;
-    }
+    const std::size_t before = points_.size();
+    const std::size_t until = once ? count : std::min(count, before + before / 8 + 1);
+    while (points_.size() < until && take_deepest(0, hole)) insert(hole, 0);
+    if (points_.size() > before) continue;
+    hole = deepest_of_triangles();
+    if (!(hole.depth > 0)) break;
+    insert(hole, 0);
   }
   return hole.depth;
+}
+
+/// Cells of two or three points on a closed surface have no corners in charts: then the deepest corner or
+/// middle of the domain's triangles.
+HoleFiller::Hole HoleFiller::deepest_of_triangles() {
+  std::vector<Hole> places;
+  for (const DomainTriangle& t : points_.domain->triangles()) {
+    const Vec3 middle = points_.domain->middle(t[0], points_.domain->middle(t[1], t[2]));
+    for (const Vec3 at : {t[0], t[1], t[2], middle})
+      if (points_.domain->freedom(at).dimensions == 2)
+        places.push_back({std::numeric_limits<double>::infinity(), at});
+  }
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    control_.check();
+    neighbors_.clear();
+    for (const Hole& place : places) neighbors_.push_back({place.at - points_[i], nobody});
+    points_.domain->distances(points_[i], std::numeric_limits<double>::infinity(), neighbors_, distances);
+    const double r = rule_.radius(points_[i]);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      places[k].depth =
+          std::min(places[k].depth, distances[k] / rule_.distance(rule_.radius(places[k].at), r));
+  }
+  return places.empty() ? Hole{} : *std::max_element(places.begin(), places.end(), ComesLater());
 }
 
 void HoleFiller::collect(double deeper_than) {

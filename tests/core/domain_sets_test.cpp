@@ -1,4 +1,5 @@
 // Generators, optimizers and measures on every kind of domain, against oracles that know nothing of cells.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "core/analyze/spacing.h"
 #include "core/domain/grid_sizing.h"
 #include "core/domain/sizing.h"
+#include "core/domain/sphere.h"
+#include "core/generate/domain_darts.h"
 #include "core/generate/domain_refinement.h"
 #include "core/generate/enrich.h"
 #include "core/generate/jittered.h"
@@ -93,6 +96,52 @@ TEST(DomainRefinement, KeepsBothRadiiOnEveryDomain) {
       const PointSet counted = refine_domain_to_count(domain, static_cast<std::uint64_t>(n), control);
       EXPECT_EQ(counted.size(), static_cast<std::size_t>(n));
       EXPECT_LE(brute_r_c_on(counted, 1e-6 * r), brute_r_f_free(counted) * (1 + 3e-6));
+    }
+  }
+}
+
+/// With so few points cells have no corners, or charts don't reach them.
+TEST(DomainSets, HaveAsManyPointsAsAreAskedForHoweverFew) {
+  for (const auto& [name, domain] : domains_of_every_kind()) {
+    if (is_torus(*domain)) continue;
+    const std::vector<BoundaryCurve> curves = domain->boundary();
+    const auto corners = static_cast<std::uint64_t>(
+        std::count_if(curves.begin(), curves.end(), [](const BoundaryCurve& c) { return !c.closed; }));
+    for (std::uint64_t more = corners == 0 ? 1 : 0; more < 8; ++more) {
+      SCOPED_TRACE(name + ", corners and " + std::to_string(more));
+      Control control;
+      Rng rng(more);
+      const PointSet thrown = throw_darts_over_to_count(domain, corners + more, {}, rng, control);
+      const PointSet refined = refine_domain_to_count(domain, corners + more, control);
+      EXPECT_EQ(thrown.size(), corners + more);
+      EXPECT_EQ(refined.size(), corners + more);
+      if (more > 1) {
+        EXPECT_GT(brute_r_f(thrown), 0);
+        EXPECT_GT(brute_r_f(refined), 0);
+      }
+    }
+  }
+}
+
+/// Two or three points may cover all of a sphere.
+TEST(DomainSets, OfVeryLargeRadiiAreMaximalOnSpheres) {
+  const auto sphere = std::make_shared<const Sphere>(1);
+  for (const double radius : {0.9, 1.2, 1.5, 1.6, 1.7}) {
+    SCOPED_TRACE(radius);
+    Control control;
+    Rng rng(3), places(5);
+    DiskRule rule;
+    rule.scale = radius;
+    for (const PointSet& points :
+         {throw_darts_over(sphere, rule, rng, control), refine_domain(sphere, radius, control)}) {
+      EXPECT_GE(brute_r_f(points), radius * (1 - 1e-9));
+      for (int k = 0; k < 20'000; ++k) {
+        const Vec3 place = sphere->random_point(places);
+        double depth = 4;
+        for (std::size_t i = 0; i < points.size(); ++i)
+          depth = std::min(depth, sphere->distance(place, points[i]));
+        ASSERT_LE(depth, radius * (1 + 1e-9)) << points.size();
+      }
     }
   }
 }
