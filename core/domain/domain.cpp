@@ -8,6 +8,15 @@ namespace wellspaced {
 
 double Domain::area_of(const DomainTriangle& t) const { return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0])); }
 
+void Domain::distances(Vec3 base, double reach, std::span<const Neighbor> neighbors,
+                       std::vector<double>& out) const {
+  out.clear();
+  for (const Neighbor& neighbor : neighbors) {
+    const double distance = norm(way_to(base, neighbor));
+    out.push_back(distance <= reach ? distance : HUGE_VAL);
+  }
+}
+
 PolygonMoments Domain::moments(std::span<const Vec2> polygon) const {
   PolygonMoments sum;
   for (std::size_t k = 0; k < polygon.size(); ++k) {

@@ -50,6 +50,14 @@ struct ChartPieces {
   }
 };
 
+/// Where a chart shows twice what lies behind a sharp vertex: between the half-lines from `at` that are
+/// turned by `half_angle` to both sides of `axis`, a unit vector that leads on from the chart's origin, there
+/// is what one also sees, and no farther, on the other side.
+struct Seam {
+  Vec2 at, axis;
+  double half_angle = 0;
+};
+
 /// How a point may move: over the domain; along the boundary curve that it lies on; not at all, as corners.
 struct Freedom {
   int dimensions = 2;
@@ -152,6 +160,10 @@ class Domain {
     return norm(way_to(base, neighbor)) < distance;
   }
 
+  /// Lengths of the ways to neighbors, not yet localized; infinite for those that are farther than `reach`.
+  virtual void distances(Vec3 base, double reach, std::span<const Neighbor> neighbors,
+                         std::vector<double>& out) const;
+
   /// The bisectors between the candidate step(base, u) and its neighbors, in the candidate's chart.
   /// Requires: out.size() == neighbors.size(); neighbors relative to `base`, localized.
   virtual void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
@@ -174,6 +186,11 @@ class Domain {
   virtual bool pieces(Vec3 base, double reach, ChartPieces& out) const {
     (void)base, (void)reach, (void)out;
     return false;
+  }
+
+  /// Adds the seams of the chart at base that begin within reach.
+  virtual void seams(Vec3 base, double reach, std::vector<Seam>& out) const {
+    (void)base, (void)reach, (void)out;
   }
 
   /// The curves that the boundary is made of.

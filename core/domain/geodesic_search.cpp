@@ -72,6 +72,18 @@ void GeodesicSearch::run(Border border, std::size_t enough, Images images) {
   if (!run_in_any_order(enough)) run_nearest_first();
 }
 
+std::vector<GeodesicSearch::VertexView> GeodesicSearch::sharp_vertices(double angle) {
+  sharp_ = angle;
+  run(Border::look);
+  std::sort(sharp_vertices_.begin(), sharp_vertices_.end(), [](const VertexView& a, const VertexView& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : norm2(a.at) < norm2(b.at);
+  });
+  const auto same = [](const VertexView& a, const VertexView& b) { return a.vertex == b.vertex; };
+  sharp_vertices_.erase(std::unique(sharp_vertices_.begin(), sharp_vertices_.end(), same),
+                        sharp_vertices_.end());
+  return std::move(sharp_vertices_);
+}
+
 /// Ways that are found so are no proof that there is no shorter one, but few windows can still lead to one.
 void GeodesicSearch::aim_at_targets() {
   is_aimed_ = true;
@@ -118,6 +130,7 @@ void GeodesicSearch::run_nearest_first() {
   windows_.clear();
   views_.clear();
   images_.clear();
+  sharp_vertices_.clear();
   vertex_distance_.assign(mesh_->vertices().size(), unreached);
   start();
   while (!queue_.empty() && queue_.front().nearest <= limit_ + slack_) {
@@ -234,6 +247,8 @@ void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {
 /// The origin of h lies `at` there, in sight, and h leads `along` from it.
 void GeodesicSearch::see_vertex(const Window& w, std::uint32_t h, Vec2 at, Vec2 along) {
   const std::uint32_t vertex = mesh_->origin(h);
+  if (w.bend == 0 && unfolding_->missing_angle(vertex) > sharp_ && norm2(at) <= reach_ * reach_)
+    sharp_vertices_.push_back({vertex, at});
   const bool bends = unfolding_->bends_ways(vertex);
   if (!bends && !nearest_first_) return;
   const double distance = bends_[w.bend].before + norm(at);

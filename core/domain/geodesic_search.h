@@ -51,6 +51,11 @@ class GeodesicSearch {
     Vec2 vector;
   };
   enum class Images { ignore, collect };
+  /// A vertex as it is seen from the base, straight ahead over unfolded faces.
+  struct VertexView {
+    std::uint32_t vertex = 0;
+    Vec2 at;
+  };
 
   /// Requires: the unfolding outlives it.
   GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base, double reach);
@@ -68,6 +73,9 @@ class GeodesicSearch {
   /// than a whole turn around it one sees what is there past its left and past its right. With more than
   /// `enough` windows only some of them.
   const std::vector<Image>& images() const { return images_; }
+  /// Looks to the end of reach for vertices with more than `angle` missing around them; instead of `run`.
+  /// Each where it is nearest.
+  std::vector<VertexView> sharp_vertices(double angle);
   /// From where they are seen: the base, or, if that is on an edge, a place beside it in its face.
   Vec2 apex() const { return apex_; }
 
@@ -137,12 +145,14 @@ class GeodesicSearch {
   std::array<Vec2, 3> corners_;
   Border border_ = Border::ignore;
   bool collects_images_ = false;
+  double sharp_ = unreached;  ///< the angle from which on vertices are collected
   bool nearest_first_ = false, is_aimed_ = false;
   std::size_t found_ = 0;
   std::vector<Target> targets_;
   std::vector<std::array<std::uint32_t, 2>> faces_with_targets_;  ///< a hash table: face, first target
   std::vector<BorderView> views_;
   std::vector<Image> images_;
+  std::vector<VertexView> sharp_vertices_;
   std::vector<Window> windows_;
   std::vector<Queued> queue_;
   std::vector<std::uint32_t> free_slots_;

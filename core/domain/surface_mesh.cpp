@@ -8,12 +8,15 @@
 #include "core/domain/geodesic_search.h"
 #include "core/domain/star_region.h"
 #include "core/domain/straight_way.h"
+#include "core/math.h"
 
 namespace wellspaced {
 namespace {
 
 constexpr double most = 0.75;              ///< of the way to the border in one move
 constexpr double far_from_surface = 1e-9;  ///< of the box's diagonal
+constexpr std::size_t most_seams = 32;
+constexpr double sharp = 3 * pi / 180;  ///< angle missing around a vertex: less doesn't matter for cells
 
 Box box_around(const TriangleMesh& mesh) {
   Vec3 low = mesh.corner(0, 0), high = low;
@@ -54,6 +57,8 @@ SurfaceMesh::SurfaceMesh(TriangleMesh mesh)
       border_(unfolding_, rounding_) {
   double sum = 0;
   for (const DomainTriangle& face : faces_of(mesh_)) areas_up_to_.push_back(sum += area_of(face));
+  for (std::uint32_t v = 0; v < mesh_.vertices().size() && !has_sharp_vertices_; ++v)
+    has_sharp_vertices_ = unfolding_.missing_angle(v) > sharp;
 }
 
 const SmallestFeature& SurfaceMesh::smallest_feature() const {
@@ -224,6 +229,15 @@ bool SurfaceMesh::is_nearer(Vec3 base, const Neighbor& neighbor, double distance
   return search.targets().front().distance < distance;
 }
 
+void SurfaceMesh::distances(Vec3 base, double reach, std::span<const Neighbor> neighbors,
+                            std::vector<double>& out) const {
+  GeodesicSearch search(unfolding_, locate(base), reach);
+  for (const Neighbor& neighbor : neighbors) search.add(locate(base + neighbor.offset, neighbor.hint));
+  search.run();
+  out.clear();
+  for (const GeodesicSearch::Target& target : search.targets()) out.push_back(target.distance);
+}
+
 void SurfaceMesh::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors,
                             std::span<HalfPlane> out) const {
   flat_bisectors(u, neighbors, out);
@@ -237,6 +251,20 @@ bool SurfaceMesh::pieces(Vec3 base, double reach, ChartPieces& out) const {
   if (search.border_views().empty()) return false;
   out = star_region(search.apex(), search.border_views(), reach);
   return true;
+}
+
+/// Where there are very many, only the nearest: such cells are coarse in any case.
+void SurfaceMesh::seams(Vec3 base, double reach, std::vector<Seam>& out) const {
+  if (!has_sharp_vertices_) return;
+  GeodesicSearch search(unfolding_, locate(base), reach);
+  for (const auto& [vertex, at] : search.sharp_vertices(sharp)) {
+    const Vec2 way = at - search.apex();
+    if (norm2(way) > 0) out.push_back({at, (1 / norm(way)) * way, unfolding_.missing_angle(vertex) / 2});
+  }
+  if (out.size() <= most_seams) return;
+  const auto nearer = [](const Seam& a, const Seam& b) { return norm2(a.at) < norm2(b.at); };
+  std::stable_sort(out.begin(), out.end(), nearer);
+  out.resize(most_seams);
 }
 
 std::vector<DomainTriangle> SurfaceMesh::triangles() const { return faces_of(mesh_); }

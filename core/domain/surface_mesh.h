@@ -29,7 +29,8 @@ namespace wellspaced {
 ///
 /// What lies behind a vertex with less than a whole turn around it is seen twice, past its left and its
 /// right: `localize` gives every image of a neighbor that a straight way leads to, in the order of the
-/// neighbors, the nearest one first, and before them the shortest way if that bends at a vertex.
+/// neighbors, the nearest one first, and before them the shortest way if that bends at a vertex. Behind
+/// vertices with more than 3 degrees missing there are `seams`.
 ///
 /// Guarantees: `step` ends on the surface, to rounding; `distance` and `localize` are exact but for rounding.
 /// step(p, log q) is q again, but where the shortest way runs through a vertex.
@@ -80,10 +81,13 @@ class SurfaceMesh : public Domain {
   std::uint32_t hint(Vec3 p) const override { return spot(p).place.face; }
   void localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const override;
   bool is_nearer(Vec3 base, const Neighbor& neighbor, double distance) const override;
+  void distances(Vec3 base, double reach, std::span<const Neighbor> neighbors,
+                 std::vector<double>& out) const override;
   void bisectors(Vec3 base, Vec2 u, std::span<const Neighbor> neighbors,
                  std::span<HalfPlane> out) const override;
   double chart_to_distance(double u) const override { return u; }
   bool pieces(Vec3 base, double reach, ChartPieces& out) const override;
+  void seams(Vec3 base, double reach, std::vector<Seam>& out) const override;
   std::vector<BoundaryCurve> boundary() const override { return border_.curves(); }
   Vec3 boundary_point(std::size_t curve, double along) const override { return border_.point(curve, along); }
   std::vector<DomainTriangle> triangles() const override;
@@ -106,6 +110,7 @@ class SurfaceMesh : public Domain {
   Unfolding unfolding_;
   FaceTree tree_;
   MeshBorder border_;
+  bool has_sharp_vertices_ = false;
   std::vector<double> areas_up_to_;  ///< of each face and all before it
   mutable std::once_flag looked_for_feature_;
   mutable SmallestFeature smallest_feature_;

@@ -39,6 +39,10 @@ Unfolding::Unfolding(const TriangleMesh& mesh) : mesh_(&mesh) {
   }
 }
 
+double Unfolding::missing_angle(std::uint32_t vertex) const {
+  return mesh_->at_border(vertex) ? 0 : std::max(0.0, 2 * pi - angle_around_[vertex]);
+}
+
 std::array<Vec2, 3> Unfolding::corners_around(const MeshPlace& origin) const {
   const double length = norm(mesh_->corner(origin.face, 1) - mesh_->corner(origin.face, 0));
   const Vec2 b{length, 0}, c = length * shapes_[3 * origin.face];

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -43,6 +45,42 @@ CountFormula count_formula(const Domain& domain, const DiskRule& rule) {
   }
   return {poisson_disk_constant * domain.area() * inverse2, on_rim * domain.boundary_length() * inverse};
 }
+
+/// Corners of triangles, each place once.
+class CornersOf {
+ public:
+  explicit CornersOf(std::span<const DomainTriangle> triangles) : numbers_(triangles.size()) {
+    std::vector<std::uint32_t> order(3 * triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto place = [&](std::uint32_t k) {
+      const Vec3 p = triangles[k / 3][k % 3];
+      return std::array{p.x, p.y, p.z};
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const auto at = place(order[k]);
+      if (k == 0 || at != place(order[k - 1])) {
+        first_.push_back(static_cast<std::uint32_t>(k));
+        coordinates.insert(coordinates.end(), at.begin(), at.end());
+      }
+      numbers_[order[k] / 3][order[k] % 3] = static_cast<std::uint32_t>(first_.size() - 1);
+      triangles_.push_back(order[k] / 3);
+    }
+    first_.push_back(static_cast<std::uint32_t>(order.size()));
+  }
+
+  const std::array<std::uint32_t, 3>& of(std::size_t triangle) const { return numbers_[triangle]; }
+  std::span<const std::uint32_t> triangles_at(std::uint32_t corner) const {
+    return {triangles_.data() + first_[corner], first_[corner + 1] - first_[corner]};
+  }
+
+  std::vector<double> coordinates;
+
+ private:
+  std::vector<std::array<std::uint32_t, 3>> numbers_;
+  std::vector<std::uint32_t> first_, triangles_;
+};
 
 class DomainDarts {
  public:
@@ -159,8 +197,9 @@ class DomainDarts {
 
   void fill_triangles() {
     constexpr int rounds = 30;
-    std::vector<DomainTriangle> active;
-    for (const DomainTriangle& triangle : domain_.triangles()) split(triangle, active);
+    std::vector<DomainTriangle> triangles = domain_.triangles(), active;
+    if (!domain_.has_exact_cells() && triangles.size() > points_.size()) drop_covered(triangles);
+    for (const DomainTriangle& triangle : triangles) split(triangle, active);
     for (int round = 0; round < rounds && !active.empty(); ++round) {
       throw_at_triangles(active);
       std::vector<DomainTriangle> parts;
@@ -174,6 +213,38 @@ class DomainDarts {
       active.swap(parts);
       control_.report({std::min(0.95, 0.3 + 0.05 * round)});
     }
+  }
+
+  /// Where a point has many triangles around it: one search to all of their corners instead of one from each
+  /// of them. No place of a triangle is farther than size / sqrt(3) from a corner.
+  void drop_covered(std::vector<DomainTriangle>& triangles) {
+    const CornersOf corners(triangles);
+    const PointSet places{points_.domain, corners.coordinates};
+    const NeighborGrid grid(places, rule_.least());
+    std::vector<bool> covered(triangles.size(), false);
+    std::vector<double> distances, to_corner(places.size(), HUGE_VAL);
+    for (std::uint32_t q = 0; q < points_.size(); ++q) {
+      control_.check();
+      neighbors_.clear();
+      grid.gather(points_[q], nobody, rule_.reach(radii_[q]), neighbors_);
+      domain_.distances(points_[q], rule_.reach(radii_[q]), neighbors_, distances);
+      for (std::size_t k = 0; k < distances.size(); ++k) to_corner[neighbors_[k].id] = distances[k];
+      for (const Neighbor& corner : neighbors_)
+        for (const std::uint32_t t : corners.triangles_at(corner.id))
+          covered[t] = covered[t] || covers(q, triangles[t], corners.of(t), to_corner);
+      for (const Neighbor& corner : neighbors_) to_corner[corner.id] = HUGE_VAL;
+    }
+    std::size_t k = 0;
+    const auto is_covered = [&](const DomainTriangle&) { return covered[k++]; };
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_covered), triangles.end());
+  }
+
+  bool covers(std::uint32_t point, const DomainTriangle& triangle,
+              const std::array<std::uint32_t, 3>& corners, const std::vector<double>& to_corner) const {
+    const double size = longest_edge(triangle);
+    const double radius = coverage_radius(least_between(triangle, size), point);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t c) { return to_corner[c] + size / std::sqrt(3.0) < radius; });
   }
 
   /// Into parts no longer than a radius; without those that are covered.

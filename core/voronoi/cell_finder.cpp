@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/math.h"
 #include "core/sort.h"
 
 namespace wellspaced {
@@ -124,13 +126,59 @@ bool CellFinder::is_complete(double moved) const {
   return moved + 2 * points_->domain->chart_to_distance(std::sqrt(outradius2())) <= reach_;
 }
 
-const Cell& CellFinder::cell_at(Vec2 u) {
+void CellFinder::find_cell(Vec2 u) {
   const double moved = norm(u);
   for (;;) {
     cut(u);
     clip_to_domain(u);
-    if (is_complete(moved) || reach_ >= farthest_reach_ + moved) return cell_;
+    if (is_complete(moved) || reach_ >= farthest_reach_ + moved) return;
     gather(std::min(1.5 * reach_ + moved, farthest_reach_ + moved));
+  }
+}
+
+const Cell& CellFinder::cell_at(Vec2 u) {
+  find_cell(u);
+  if (!points_->domain->has_exact_cells()) leave_out_seams(u);
+  return cell_;
+}
+
+/// Both sides of a seam are convex. What is beside it sees past the vertex as if the other side were turned
+/// around that by all that is missing.
+void CellFinder::leave_out_seams(Vec2 u) {
+  seams_.clear();
+  // As far as a sample may be from a place of the cell that it is nearest to.
+  points_->domain->seams(base_, norm(u) + 2 * std::sqrt(outradius2()), seams_);
+  for (const Seam& seam : seams_) {
+    halves_.clear();
+    for (const Cell& part : parts())
+      for (const double side : {1.0, -1.0}) {
+        Cell half = part;
+        clip_to_side(seam, side, u, half);
+        if (half.corners().size() >= 3) halves_.push_back(std::move(half));
+      }
+    parts_.swap(halves_);
+    clipped_ = true;
+  }
+}
+
+/// side: 1: left of the seam's axis, -1: right of it.
+void CellFinder::clip_to_side(const Seam& seam, double side, Vec2 u, Cell& half) const {
+  const auto turned = [](Vec2 v, double angle) {
+    const CosSin turn = portable_cos_sin(angle / (2 * pi));
+    return Vec2{turn.cos * v.x - turn.sin * v.y, turn.sin * v.x + turn.cos * v.y};
+  };
+  const auto keep_left_of = [&](Vec2 way) { half.clip({{way.y, -way.x}, -cross(way, seam.at - u)}, -1); };
+  keep_left_of(side * seam.axis);
+  keep_left_of(side * turned(seam.axis, side * seam.half_angle));
+  for (std::size_t k = 0; k < neighbors_.size() && half.corners().size() >= 3; ++k) {
+    Neighbor seen = neighbors_[k];
+    const Vec2 from_vertex = Vec2{seen.offset.x, seen.offset.y} - seam.at;
+    if (side * cross(seam.axis, from_vertex) > 0) continue;
+    const Vec2 at = seam.at + turned(from_vertex, 2 * side * seam.half_angle);
+    seen.offset = {at.x, at.y, 0};
+    HalfPlane bisector;
+    points_->domain->bisectors(base_, u, {&seen, 1}, {&bisector, 1});
+    half.clip(bisector, static_cast<std::int32_t>(k));
   }
 }
 
@@ -158,8 +206,9 @@ std::optional<CellFinder::Radii> CellFinder::radii_by_star(Vec2 u) {
   return radii;
 }
 
+/// What seams leave out is seen elsewhere, so it doesn't matter here.
 CellFinder::Radii CellFinder::radii_by_clipping(Vec2 u) {
-  cell_at(u);
+  find_cell(u);
   double nearest2 = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < half_planes_.size(); ++k) {
     if (neighbors_[k].id == self_) continue;  // an own image bounds the cell but is no other sample

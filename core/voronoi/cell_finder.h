@@ -45,8 +45,9 @@ class CellFinder {
   /// The cell itself, as if the domain went on all around; labels are indices into neighbors(). Valid until
   /// the next call.
   const Cell& cell_at(Vec2 u);
-  /// What of the cell lies in the domain, as of cell_at: convex parts, some of them empty, whose edges with
-  /// negative labels are the domain's boundary or lie between two parts; the cell where nothing bounds it.
+  /// What of the cell lies in the domain, as of cell_at, once each: convex parts, some of them empty, whose
+  /// edges with negative labels are the domain's boundary or a seam, or lie between two parts; the cell where
+  /// there are none.
   std::span<const Cell> parts() const {
     return clipped_ ? std::span<const Cell>(parts_) : std::span(&cell_, 1);
   }
@@ -67,7 +68,10 @@ class CellFinder {
   void gather(double reach);
   void sort_neighbors();
   void cut(Vec2 u);
+  void find_cell(Vec2 u);
   void clip_to_domain(Vec2 u);
+  void leave_out_seams(Vec2 u);
+  void clip_to_side(const Seam& seam, double side, Vec2 u, Cell& half) const;
   bool is_complete(double moved) const;
   void load_star();
   std::optional<Radii> radii_by_star(Vec2 u);
@@ -83,7 +87,8 @@ class CellFinder {
   std::vector<HalfPlane> half_planes_;
   Cell cell_;
   ChartPieces pieces_;
-  std::vector<Cell> parts_;
+  std::vector<Cell> parts_, halves_;
+  std::vector<Seam> seams_;
   std::vector<Vec2> polygon_;
   bool clipped_ = false;
   CandidateStar star_;

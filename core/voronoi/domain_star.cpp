@@ -24,16 +24,17 @@ void DomainStar::load(const MovingSet& set, std::size_t i, CellFinder& cells) {
   const auto direction = [](const Spoke& s) { return portable_atan2(s.way.y, s.way.x); };
   std::sort(spokes_.begin(), spokes_.end(),
             [&](const Spoke& a, const Spoke& b) { return direction(a) < direction(b); });
-  if (!set.domain().has_exact_cells()) merge_images();
+  if (!set.domain().has_exact_cells()) merge_images(set.freedom(i).dimensions == 2);
   if (set.freedom(i).dimensions < 2) open_outside(set, i);
 }
 
 /// What lies behind a vertex of a mesh is seen past its left and its right: one neighbor, the nearer one of
-/// the two, where these follow each other within half a turn.
-void DomainStar::merge_images() {
+/// the two, where these follow each other; on the boundary within half a turn, for the outside is no vertex.
+void DomainStar::merge_images(bool is_inside) {
   for (std::size_t k = 0; k < spokes_.size() && spokes_.size() > 3;) {
     const std::size_t next = k + 1 == spokes_.size() ? 0 : k + 1;
-    if (spokes_[k].id != spokes_[next].id || cross(spokes_[k].way, spokes_[next].way) <= 0) {
+    const bool within_half_a_turn = cross(spokes_[k].way, spokes_[next].way) > 0;
+    if (spokes_[k].id != spokes_[next].id || !(is_inside || within_half_a_turn)) {
       ++k;
       continue;
     }

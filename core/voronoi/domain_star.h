@@ -26,7 +26,7 @@ class DomainStar {
   std::span<const Spoke> spokes() const { return spokes_; }
 
  private:
-  void merge_images();
+  void merge_images(bool is_inside);
   void open_outside(const MovingSet& set, std::size_t i);
 
   std::vector<Spoke> spokes_;

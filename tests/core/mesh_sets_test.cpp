@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/analyze/spacing.h"
 #include "core/domain/sizing.h"
 #include "core/domain/surface_mesh.h"
+#include "core/generate/domain_darts.h"
 #include "core/generate/domain_refinement.h"
 #include "core/generate/enrich.h"
 #include "core/generate/jittered.h"
@@ -104,6 +106,49 @@ TEST(MeshSets, AreMadeByEveryGenerator) {
     const double coverage = enrichment_coverage(strewn, plain);
     const PointSet filled = enrich(strewn, coverage, control);
     EXPECT_LE(measure_spacing(filled, plain).r_c, coverage * (1 + 1e-9));
+  }
+}
+
+/// The area of all cells together, as they are cut.
+double area_of_cells(const PointSet& points) {
+  const MovingSet set(points, plain);
+  std::vector<double> areas(points.size());
+  set.for_each_cell(plain, [&](std::size_t i, CellFinder& cells) { areas[i] = cells.moments().area; });
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+// Behind a sharp vertex charts show everything twice: a point beside it, or in it, may not have it twice.
+TEST(MeshSets, HaveCellsThatCountWhatIsBehindSharpVerticesOnce) {
+  for (Triangles shape : {testing::tetrahedron(), testing::icosahedron()}) {
+    const std::vector<Vec3> vertices = shape.vertices;
+    const auto mesh = std::make_shared<const SurfaceMesh>(TriangleMesh(std::move(shape)));
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      PointSet points = mps_on(mesh, 300, seed);
+      EXPECT_NEAR(area_of_cells(points), mesh->area(), 1e-9 * mesh->area());
+      for (const Vec3 vertex : vertices) {  // move the nearest point there
+        std::size_t nearest = 0;
+        for (std::size_t i = 1; i < points.size(); ++i)
+          if (norm(points[i] - vertex) < norm(points[nearest] - vertex)) nearest = i;
+        points.set(nearest, vertex);
+      }
+      EXPECT_NEAR(area_of_cells(points), mesh->area(), 1e-9 * mesh->area());
+    }
+  }
+}
+
+// One search from each point tells of most faces that they are covered.
+TEST(MeshSets, OfFewPointsOnManyFacesAreMaximal) {
+  const auto mesh =
+      std::make_shared<const SurfaceMesh>(TriangleMesh(testing::refined_sphere(testing::icosahedron(), 4)));
+  for (const std::uint64_t count : {1, 3, 8, 20}) {
+    Rng rng(3);
+    Control control;
+    const PointSet points = throw_darts_over_to_count(mesh, count, {}, rng, control);
+    ASSERT_EQ(points.size(), count);
+    if (count < 3) continue;  // of which there is no spacing
+    const Spacing spacing = measure_spacing(points, plain);
+    EXPECT_LE(spacing.beta, 1 + 1e-9);
+    EXPECT_LE(deepest_of_many(*mesh, points, 7, 50), spacing.r_c * (1 + 1e-9));
   }
 }
 

@@ -88,6 +88,7 @@ TEST(Domains, ThatAreMeshesTakePointsOnThem) {
           .summary["spacing"];
   EXPECT_NEAR(spacing["r_f"].get<double>(), std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(spacing["r_c"].get<double>(), std::sqrt(2.0 / 3), 1e-12);  // the middles of faces
+  EXPECT_EQ(spacing["valence"], nlohmann::ordered_json({{"4", 6}}));
 }
 
 TEST(Domains, ThatAreMeshesTakeRadiiOfTheirVertices) {
