@@ -2,9 +2,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/domain/surface_mesh.h"
 #include "core/domain/torus.h"
 #include "core/generate/enrich.h"
 #include "core/generate/generate.h"
+#include "proto/arguments.h"
 #include "proto/fields.h"
 #include "proto/request.h"
 
@@ -30,9 +32,19 @@ double expected(const OptimizeRequest& request) {
   return n + most_inserted(domain, radius_for_count(domain, std::max(1.0, n)));
 }
 
+/// On a mesh of many faces each of a few points looks over most of the surface for room beside it.
+double seconds_of_faces(const GenerateRequest& request, double n) {
+  const auto* const mesh = dynamic_cast<const SurfaceMesh*>(request.domain.get());
+  if (mesh == nullptr || !takes_radius(*request.method)) return 0;
+  return static_cast<double>(mesh->mesh().faces().size()) * std::min(1e-3, 0.02 / std::max(n, 1.0));
+}
+
 Cost cost_of(const GenerateRequest& request) {
   const bool torus = is_torus(*request.domain) && request.sizing == nullptr;
-  return times(expected(request), torus ? request.method->cost_a_point : request.method->cost_elsewhere);
+  const double n = expected(request);
+  Cost cost = times(n, torus ? request.method->cost_a_point : request.method->cost_elsewhere);
+  cost.seconds += seconds_of_faces(request, n);
+  return cost;
 }
 
 Cost cost_of_optimizing(const OptimizeRequest& request) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t nobody = ~0u;
 constexpr std::size_t between_checks = 512;
+constexpr std::size_t many_triangles = 8;  ///< a point: from here on it is faster to look from the points
 
 /// A part of a curve, in lengths along it.
 struct Interval {
@@ -198,30 +199,44 @@ class DomainDarts {
   void fill_triangles() {
     constexpr int rounds = 30;
     std::vector<DomainTriangle> triangles = domain_.triangles(), active;
-    if (!domain_.has_exact_cells() && triangles.size() > points_.size()) drop_covered(triangles);
+    are_small_ = !domain_.has_exact_cells() && triangles.size() > many_triangles * points_.size();
+    drop_covered(triangles);
     for (const DomainTriangle& triangle : triangles) split(triangle, active);
     for (int round = 0; round < rounds && !active.empty(); ++round) {
       throw_at_triangles(active);
+      drop_covered(active);
       std::vector<DomainTriangle> parts;
-      for (std::size_t k = 0; k < active.size(); ++k) {
-        if (k % between_checks == 0) control_.check();
-        if (is_covered(active[k])) continue;
-        for (const DomainTriangle& half : halves(active[k]))
-          for (const DomainTriangle& quarter : halves(half))
-            if (!is_covered(quarter)) parts.push_back(quarter);
-      }
+      for (const DomainTriangle& triangle : active)
+        for (const DomainTriangle& half : halves(triangle))
+          for (const DomainTriangle& quarter : halves(half)) parts.push_back(quarter);
+      drop_covered(parts);
       active.swap(parts);
       control_.report({std::min(0.95, 0.3 + 0.05 * round)});
     }
   }
 
+  /// Those that a single disk covers.
+  void drop_covered(std::vector<DomainTriangle>& triangles) {
+    std::vector<bool> covered(triangles.size(), false);
+    if (are_small_) {
+      look_from_points(triangles, covered);
+    } else {
+      for (std::size_t k = 0; k < triangles.size(); ++k) {
+        if (k % between_checks == 0) control_.check();
+        covered[k] = is_covered(triangles[k]);
+      }
+    }
+    std::size_t k = 0;
+    const auto is_dropped = [&](const DomainTriangle&) { return covered[k++]; };
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_dropped), triangles.end());
+  }
+
   /// Where a point has many triangles around it: one search to all of their corners instead of one from each
   /// of them. No place of a triangle is farther than size / sqrt(3) from a corner.
-  void drop_covered(std::vector<DomainTriangle>& triangles) {
+  void look_from_points(const std::vector<DomainTriangle>& triangles, std::vector<bool>& covered) {
     const CornersOf corners(triangles);
     const PointSet places{points_.domain, corners.coordinates};
     const NeighborGrid grid(places, rule_.least());
-    std::vector<bool> covered(triangles.size(), false);
     std::vector<double> distances, to_corner(places.size(), HUGE_VAL);
     for (std::uint32_t q = 0; q < points_.size(); ++q) {
       control_.check();
@@ -234,9 +249,6 @@ class DomainDarts {
           covered[t] = covered[t] || covers(q, triangles[t], corners.of(t), to_corner);
       for (const Neighbor& corner : neighbors_) to_corner[corner.id] = HUGE_VAL;
     }
-    std::size_t k = 0;
-    const auto is_covered = [&](const DomainTriangle&) { return covered[k++]; };
-    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_covered), triangles.end());
   }
 
   bool covers(std::uint32_t point, const DomainTriangle& triangle,
@@ -247,19 +259,19 @@ class DomainDarts {
                        [&](std::uint32_t c) { return to_corner[c] + size / std::sqrt(3.0) < radius; });
   }
 
-  /// Into parts no longer than a radius; without those that are covered.
+  /// Into parts no longer than a radius; without those that are covered, as the whole is not.
   void split(const DomainTriangle& whole, std::vector<DomainTriangle>& parts) {
     std::vector<DomainTriangle> open = {whole};
     for (std::size_t steps = 0; !open.empty(); ++steps) {
       if (steps % between_checks == 0) control_.check();
       const DomainTriangle triangle = open.back();
       open.pop_back();
-      if (is_covered(triangle)) continue;
       if (longest_edge(triangle) <= rule_.radius(triangle[0])) {
         parts.push_back(triangle);
         continue;
       }
-      for (const DomainTriangle& half : halves(triangle)) open.push_back(half);
+      for (const DomainTriangle& half : halves(triangle))
+        if (!is_covered(half)) open.push_back(half);
     }
   }
 
@@ -354,7 +366,7 @@ class DomainDarts {
   PointSet points_;
   std::vector<double> radii_;
   NeighborGrid grid_;
-  bool bounded_;
+  bool bounded_, are_small_ = false;
   std::vector<Neighbor> neighbors_, single_;
 };
 

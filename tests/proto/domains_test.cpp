@@ -91,6 +91,23 @@ TEST(Domains, ThatAreMeshesTakePointsOnThem) {
   EXPECT_EQ(spacing["valence"], nlohmann::ordered_json({{"4", 6}}));
 }
 
+// 2000 flat faces: 3 points look over all of them again and again, 3000 only around themselves.
+TEST(Domains, ThatAreMeshesOfManyFacesAreSlowForFewPoints) {
+  nlohmann::json vertices, faces;
+  for (int k = 0; k <= 1000; ++k)
+    for (const int y : {0, 1}) vertices.push_back({k, y, 0});
+  for (int k = 0; k < 2000; ++k)
+    faces.push_back(k % 2 == 0 ? nlohmann::json{k, k + 2, k + 1} : nlohmann::json{k, k + 1, k + 2});
+  const std::string mesh =
+      R"(,"domain":{"type":"mesh","vertices":)" + vertices.dump() + R"(,"faces":)" + faces.dump() + "}}";
+  const auto seconds = [&](const std::string& what) {
+    return expected_cost(testing::read("generate", "{" + what + mesh)).seconds;
+  };
+  EXPECT_GT(seconds(R"("count":3)"), 1);
+  EXPECT_GT(seconds(R"("count":3)"), 10 * seconds(R"("count":3000)"));
+  EXPECT_LT(seconds(R"("count":3,"method":"white-noise")"), 0.1);
+}
+
 TEST(Domains, ThatAreMeshesTakeRadiiOfTheirVertices) {
   const std::string sizing =
       R"("sizing":{"type":"vertices","radii":[0.1,0.3,0.2,0.2,0.2,0.2,1]},"domain":)" + octahedron;
