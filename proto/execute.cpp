@@ -284,6 +284,7 @@ Result execute(const Request& request, Control& control) {
   Result result =
       std::visit([&](const auto& operation) { return run(operation, control); }, request.operation);
   result.picture = request.picture;
+  result.barycentric = request.barycentric;
   control.report({1});
   return result;
 }

@@ -87,6 +87,12 @@ void add_methods(ordered_json& schemas, const std::string& prefix, std::span<con
   schemas[prefix] = {{"oneOf", choices}};
 }
 
+ordered_json barycentric_schema() {
+  return {{"type", "boolean"},
+          {"default", false},
+          {"description", "on a mesh: the JSON result tells the face of each point, and where in it"}};
+}
+
 ordered_json source_schema() {
   const auto only = [](const char* name, ordered_json schema) {
     return closed(object({{name, std::move(schema)}}, {name}));
@@ -115,6 +121,13 @@ void add_results(ordered_json& schemas) {
   generate["method"] = typed("string", "that was used");
   generate["parameters"] = {{"type", "object"}};
   generate["points"] = schema_reference("Points");
+  generate["face"] = {{"type", "array"},
+                      {"description", "with barycentric: the face of the mesh that each point is in, from 0"},
+                      {"items", {{"type", "integer"}}}};
+  generate["barycentric"] = {
+      {"type", "array"},
+      {"description", "with barycentric: of each point the weights of its face's corners"},
+      {"items", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}}}};
   ordered_json optimize = generate;
   for (const char* name : {"beta", "r_f", "r_f_free", "r_c", "rho", "beta_i_max", "beta_i_mean"})
     optimize[name] = spacing_schema()["properties"][name];
@@ -325,6 +338,7 @@ ordered_json openapi_schemas() {
         {"description", "whether a radius may be larger than the smallest feature of a polygon or mesh"}}}};
   ordered_json asked = made;
   asked["picture"] = schema_reference("Picture");
+  asked["barycentric"] = barycentric_schema();
   add_methods(schemas, "PointsToGenerate", generators(), made);
   add_methods(schemas, "GenerateRequest", generators(), asked);
   schemas["PointSource"] = source_schema();
@@ -335,6 +349,7 @@ ordered_json openapi_schemas() {
   add_methods(schemas, "PointsToOptimize", optimizers(), worked_on);
   ordered_json optimize = worked_on;
   optimize["picture"] = schema_reference("Picture");
+  optimize["barycentric"] = barycentric_schema();
   add_methods(schemas, "OptimizeRequest", optimizers(), optimize);
   add_analyze_request(schemas);
   add_results(schemas);

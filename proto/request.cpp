@@ -8,6 +8,7 @@
 
 #include "core/domain/box_domain.h"
 #include "core/domain/sphere.h"
+#include "core/domain/surface_mesh.h"
 #include "core/domain/torus.h"
 #include "proto/arguments.h"
 #include "proto/fields.h"
@@ -15,6 +16,7 @@
 #include "proto/formats/polygon.h"
 #include "proto/formats/surface_mesh.h"
 #include "proto/picture.h"
+#include "proto/result.h"
 #include "proto/source_reader.h"
 #include "proto/stored_domain.h"
 
@@ -221,6 +223,12 @@ std::shared_ptr<const Domain> uploaded(Fields& fields, const std::string& type, 
   return domain;
 }
 
+void require_mesh(const Domain& domain) {
+  if (dynamic_cast<const SurfaceMesh*>(&domain) != nullptr) return;
+  throw Error(ErrorCode::invalid_parameters, "only points on a mesh are in a face; leave this out",
+              "/barycentric");
+}
+
 }  // namespace
 
 std::shared_ptr<const Domain> read_domain(const json& value, const std::string& pointer,
@@ -270,10 +278,13 @@ Request read_request(const RawRequest& raw, const Limits& limits, const Referenc
   const json* picture = fields.find("picture");
   request.picture = merged_picture(picture != nullptr ? *picture : json(), raw.picture);
   read_picture(request.picture, "/picture");
+  if (makes_points(raw.operation)) request.barycentric = fields.flag("barycentric").value_or(false);
   if (raw.operation == "generate") {
     request.operation = reader.generate(fields);
+    if (request.barycentric) require_mesh(*std::get<GenerateRequest>(request.operation).domain);
   } else if (raw.operation == "optimize") {
     request.operation = reader.optimize(fields);
+    if (request.barycentric) require_mesh(domain_of(std::get<OptimizeRequest>(request.operation).points));
   } else {
     request.operation = analyze_request(fields, reader, limits);
   }

@@ -80,7 +80,8 @@ struct MeshRequest {
 
 struct Request {
   std::variant<GenerateRequest, OptimizeRequest, AnalyzeRequest, MeshRequest> operation;
-  nlohmann::json picture;  ///< that is asked for, as read_picture takes it; null if there is none
+  nlohmann::json picture;    ///< that is asked for, as read_picture takes it; null if there is none
+  bool barycentric = false;  ///< the result says in which face of the mesh each point is, and where there
 };
 
 /// Reads and validates a whole request, before any work: JSON, or points as npy or csv with everything else

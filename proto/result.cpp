@@ -8,6 +8,7 @@
 
 #include "proto/formats/mesh_writer.h"
 #include "proto/json_writer.h"
+#include "proto/mesh_places.h"
 #include "proto/mesh_result.h"
 #include "proto/picture.h"
 #include "proto/request.h"
@@ -30,6 +31,7 @@ std::string write_json(const Result& result) {
   text += ",\"points\":";
   text += rows_to_json(result.points().coordinates.data(), result.points().size(),
                        static_cast<std::size_t>(result.points().domain->dimension()));
+  if (result.barycentric) text += place_members(result.points());
   if (result.mesh != nullptr) text += mesh_members(*result.mesh, result.points().domain->dimension());
   return text + "}\n";
 }
@@ -82,6 +84,7 @@ Result load(const ordered_json& head, std::string_view data, const DomainById& f
     const auto sizing = read_sizing(nlohmann::json(group["sizing"]), *domain, "");
     for (PointSet& set : result.groups.back().sets) set.sizing = sizing;
   }
+  result.barycentric = head.value("barycentric", false);
   if (head.contains("mesh")) {
     result.mesh = take_mesh(head["mesh"], data);
     if (result.mesh == nullptr) throw unreadable();
@@ -141,6 +144,7 @@ std::string store_result(const Result& result) {
                               {"sizes", std::move(sizes)},
                               {"sizing", sizing_to_json(group.sets.front().sizing.get())}});
   }
+  if (result.barycentric) head["barycentric"] = true;
   if (result.mesh != nullptr) head["mesh"] = mesh_head(*result.mesh);
   std::string bytes = dump(head) + "\n";
   bytes.reserve(bytes.size() + numbers * sizeof(double));

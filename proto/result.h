@@ -33,6 +33,7 @@ struct Result {
   std::vector<ResultGroup> groups;             ///< one, unless several were compared
   nlohmann::ordered_json picture;              ///< that the request asked for; null if there is none
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< of an operation that makes one
+  bool barycentric = false;  ///< JSON says in which face of the domain, a mesh, each point is
 
   /// The first set, of most results the only one.
   const PointSet& points() const { return groups.front().sets.front(); }

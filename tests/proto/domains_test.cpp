@@ -91,6 +91,34 @@ TEST(Domains, ThatAreMeshesTakePointsOnThem) {
   EXPECT_EQ(spacing["valence"], nlohmann::ordered_json({{"4", 6}}));
 }
 
+TEST(Domains, ThatAreMeshesTellTheFacesOfPointsWhereAsked) {
+  const std::string made = R"({"count":40,"domain":)" + octahedron;
+  const Result result = run("generate", made + R"(,"barycentric":true})");
+  const auto text = [](const Result& r) { return encode_result(r, Format::json, {}, {}, Control()).bytes; };
+  const auto answer = nlohmann::json::parse(text(result));
+  const auto mesh = nlohmann::json::parse(octahedron);
+  ASSERT_EQ(answer["face"].size(), 40u);
+  ASSERT_EQ(answer["barycentric"].size(), 40u);
+  for (std::size_t i = 0; i < 40; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t corner = mesh["faces"][answer["face"][i].get<std::size_t>()][k];
+        sum += answer["barycentric"][i][k].get<double>() * mesh["vertices"][corner][axis].get<double>();
+      }
+      EXPECT_NEAR(sum, answer["points"][i][axis].get<double>(), 1e-12);
+    }
+  EXPECT_EQ(text(load_result(store_result(result))), text(result));
+  EXPECT_FALSE(nlohmann::json::parse(text(run("generate", made + "}"))).contains("face"));
+  const Result moved =
+      run("optimize", R"({"beta":0.9,"barycentric":true,"points":{"generate":)" + made + "}}}");
+  EXPECT_EQ(nlohmann::json::parse(text(moved))["face"].size(), 40u);
+  expect_refusals({{"generate", R"({"count":40,"barycentric":true})", invalid, "/barycentric", "mesh"},
+                   {"generate", made + R"(,"barycentric":1})", invalid, "/barycentric", "true or false"},
+                   {"analyze", R"({"points":{"generate":)" + made + R"(}},"barycentric":true})", invalid,
+                    "/barycentric", "unknown"}});
+}
+
 // 2000 flat faces: 3 points look over all of them again and again, 3000 only around themselves.
 TEST(Domains, ThatAreMeshesOfManyFacesAreSlowForFewPoints) {
   nlohmann::json vertices, faces;
