@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Time, memory and beta of the main work on other domains than the torus, each as a process of its own.
 
-usage: domain_bars.py PROGRAM [--long]     --long: a million points, too
+usage: domain_bars.py PROGRAM [--long | --meshes]
+--long: a million points, too
+--meshes: how long Delaunay and Voronoi meshes take instead, beyond making their points; with --long also of a million
 The surface is fertility_small.off of the folder that WELLSPACED_DATA_DIR names; without it that row is left out.
 """
 
@@ -42,9 +44,9 @@ def read_off(path):
             "faces": [[int(x) for x in rest[4 * k + 1:4 * k + 4]] for k in range(faces)]}
 
 
-def run(program, operation, request, folder):
-    """Seconds, MB and the result without its points."""
-    asked, answered = folder / "request.json", folder / "result.json"
+def run(program, operation, request, folder, answer="result.json"):
+    """Seconds, MB and, as JSON, the result."""
+    asked, answered = folder / "request.json", folder / answer
     asked.write_text(json.dumps(request))
     started = time.perf_counter()
     process = subprocess.Popen([program, "run", operation, str(asked), "-o", str(answered)])
@@ -52,7 +54,7 @@ def run(program, operation, request, folder):
     seconds = time.perf_counter() - started
     if status != 0:
         sys.exit(f"{operation} failed")
-    return seconds, usage.ru_maxrss / 1e3, json.loads(answered.read_text())
+    return seconds, usage.ru_maxrss / 1e3, json.loads(answered.read_text()) if answer.endswith("json") else None
 
 
 def optimized(domain, beta, sizing=None, **density):
@@ -80,9 +82,36 @@ def rows(long):
                "at most 60 s and 1 GB")
 
 
+def mesh_rows(long):
+    for n in (100_000, 1_000_000) if long else (100_000,):
+        yield f"torus, {n} points", {"count": n}
+    yield "box, 100,000 points", {"domain": {"type": "box"}, "count": 100_000}
+    yield ("polygon of 10,000 edges, 100,000 points",
+           {"domain": jagged(10_000), "allow_small_features": True, "radius": 0.0048})
+    yield "sphere, 100,000 points", {"domain": SPHERE, "count": 100_000}
+    folder = os.environ.get("WELLSPACED_DATA_DIR")
+    if folder:
+        surface = read_off(pathlib.Path(folder) / "meshes" / "fertility_small.off")
+        yield "fertility_small, 10,000 points", {"domain": surface, "count": 10_000}
+
+
+def time_meshes(program, long, folder):
+    for name, made in mesh_rows(long):
+        alone, _, _ = run(program, "generate", made, folder, "points.npy")
+        said = []
+        for method in ("delaunay", "voronoi"):
+            request = {"points": {"generate": made}, "method": method}
+            seconds, megabytes, _ = run(program, "mesh", request, folder, "mesh.ply")
+            said.append(f"{method} {seconds - alone:.2f} s, {megabytes:.0f} MB")
+        print(f"{name}: {'; '.join(said)}", flush=True)
+
+
 def main():
     program, long = sys.argv[1], "--long" in sys.argv[2:]
     with tempfile.TemporaryDirectory() as folder:
+        if "--meshes" in sys.argv[2:]:
+            time_meshes(program, long, pathlib.Path(folder))
+            return
         for name, operation, request, bar in rows(long):
             seconds, megabytes, result = run(program, operation, request, pathlib.Path(folder))
             beta = result.get("beta_upper") or result.get("beta")

@@ -1,10 +1,13 @@
 // Domains are uploaded once, referred to by the hash of their bytes, and kept while anything lies on them.
 #include <cmath>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "tests/support/server_app.h"
 
 namespace wellspaced {
@@ -16,7 +19,7 @@ using support::Caller;
 using support::Process;
 using support::ServedApp;
 using support::TemporaryDirectory;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr const char* kPlain = "text/plain";
 
@@ -116,6 +119,34 @@ TEST(ServiceDomains, SayWhatIsWrongWithThem) {
   EXPECT_EQ(refused(square, "", "image/png"), "415 unsupported-media-type none");
   EXPECT_EQ(refused(square, "?format=stl"), "422 invalid-parameters /format");
   EXPECT_EQ(refused(square, "?color=red"), "422 invalid-parameters /color");
+  EXPECT_EQ(caller.get("/v1/domains").parsed()["domains"].size(), 0u);
+}
+
+// Files of others that are known to be bad, each in its own way.
+TEST(ServiceDomains, RefuseBadFilesOfOthersWithTheCulprit) {
+  const std::string data = testing::shared_data();
+  if (data.empty()) GTEST_SKIP() << "needs the folder that WELLSPACED_DATA_DIR names";
+  const ServedApp app;
+  const Caller caller(app.port());
+  const auto read = [&](const std::string& name) {
+    std::ifstream file(data + "/" + name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const auto expect_refused = [&](const std::string& body, const char* type, const std::string& pointer,
+                                  const std::string& why) {
+    const Answer answer = caller.post("/v1/domains", body, {}, type);
+    EXPECT_EQ(answer.status, 422) << answer.body;
+    EXPECT_THAT(answer.pointer(), ::testing::StartsWith(pointer)) << answer.body;
+    EXPECT_THAT(answer.body, HasSubstr(why));
+  };
+  const auto polygon = [&](const std::string& name) {
+    return R"({"type":"polygon","rings":)" + read("polygons_reject/" + name) + "}";
+  };
+  expect_refused(read("meshes_reject/fan3.obj"), kPlain, "/faces/", "edge");
+  expect_refused(read("meshes_reject/degtri_sliding.off"), kPlain, "/faces/", "area");
+  expect_refused(read("meshes_reject/tet-shuffled.off"), kPlain, "/faces/", "orient all faces alike");
+  expect_refused(polygon("hourglass.json"), "application/json", "/rings/0/", "touches");
+  expect_refused(polygon("bad-hole.json"), "application/json", "/rings/0/", "leave it out");
   EXPECT_EQ(caller.get("/v1/domains").parsed()["domains"].size(), 0u);
 }
 
