@@ -40,7 +40,8 @@ Unfolding::Unfolding(const TriangleMesh& mesh) : mesh_(&mesh) {
 }
 
 double Unfolding::missing_angle(std::uint32_t vertex) const {
-  return mesh_->at_border(vertex) ? 0 : std::max(0.0, 2 * pi - angle_around_[vertex]);
+  const bool has_faces = mesh_->first_out(vertex) != TriangleMesh::none;
+  return !has_faces || mesh_->at_border(vertex) ? 0 : std::max(0.0, 2 * pi - angle_around_[vertex]);
 }
 
 std::array<Vec2, 3> Unfolding::corners_around(const MeshPlace& origin) const {

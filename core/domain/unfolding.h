@@ -57,7 +57,8 @@ class Unfolding {
   double angle_to(std::uint32_t h) const { return angle_to_[h]; }
   /// Of the face of h at the origin of h.
   double angle_at(std::uint32_t h) const { return angle_at_[h]; }
-  /// How much less than a whole turn is around the vertex; 0 at the border, and where there is more.
+  /// How much less than a whole turn is around the vertex; 0 at the border, without faces, and where there
+  /// is more.
   double missing_angle(std::uint32_t vertex) const;
   /// Shortest ways may run through the vertex, because there is more around it than a straight line needs.
   bool bends_ways(std::uint32_t vertex) const { return bends_ways_[vertex]; }

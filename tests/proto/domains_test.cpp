@@ -91,6 +91,17 @@ TEST(Domains, ThatAreMeshesTakePointsOnThem) {
   EXPECT_EQ(spacing["valence"], nlohmann::ordered_json({{"4", 6}}));
 }
 
+TEST(Domains, ThatAreMeshesMayHaveVerticesWithoutFaces) {
+  const auto made = [](const std::string& first) {
+    return run("generate", R"({"count":20,"domain":{"type":"mesh","vertices":[)" + first +
+                               R"([0,0,0],[1,0,0],[0,1,0],[0,0,1],[9,9,9]],"faces":)" +
+                               (first.empty() ? "[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]}}"
+                                              : "[[1,3,2],[1,2,4],[2,3,4],[3,1,4]]}}"));
+  };
+  EXPECT_EQ(made("").points().size(), 20u);
+  EXPECT_EQ(made("[5,5,5],").points().coordinates, made("").points().coordinates);
+}
+
 TEST(Domains, ThatAreMeshesTellTheFacesOfPointsWhereAsked) {
   const std::string made = R"({"count":40,"domain":)" + octahedron;
   const Result result = run("generate", made + R"(,"barycentric":true})");
