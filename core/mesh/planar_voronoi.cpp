@@ -39,6 +39,20 @@ constexpr int on_ring = -1;
 using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Exact>, int>;
 using Arrangement = CGAL::Arrangement_2<Traits>;
 
+/// Coordinates of less than 1e-100 of the domain's size become 0: their products are below what a double can
+/// hold, where filters of exact arithmetic fail.
+class Underflow {
+ public:
+  explicit Underflow(const Domain& domain)
+      : least_(1e-100 * std::max(domain.box().size.x, domain.box().size.y)) {}
+  Vec2 removed(Vec2 p) const { return {removed(p.x), removed(p.y)}; }
+
+ private:
+  double removed(double x) const { return std::fabs(x) < least_ ? 0 : x; }
+
+  double least_;
+};
+
 std::vector<std::vector<Vec2>> rings_of(const PointSet& points, const PlanarSites& sites) {
   if (const auto* const polygon = dynamic_cast<const Polygon*>(points.domain.get())) return polygon->rings();
   const Vec3 size = points.domain->box().size;
@@ -53,7 +67,9 @@ std::vector<std::vector<Vec2>> rings_of(const PointSet& points, const PlanarSite
 class PlanarVoronoi {
  public:
   PlanarVoronoi(const PointSet& points, const Control& control)
-      : points_(points), control_(control), sites_(points) {}
+      : points_(points), control_(control), underflow_(*points.domain), sites_(points) {
+    for (Vec2& site : sites_.at) site = underflow_.removed(site);
+  }
 
   Mesh run() {
     vertices_ = insert_places(triangulation_, sites_.at, control_);
@@ -212,7 +228,8 @@ class PlanarVoronoi {
   void add_rings(Curves& curves) const {
     for (const auto& ring : rings_of(points_, sites_))
       for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Vec2 a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
+        const Vec2 a = underflow_.removed(ring[k]);
+        const Vec2 b = underflow_.removed(ring[k + 1 == ring.size() ? 0 : k + 1]);
         curves.push_back({Exact::Segment_2({a.x, a.y}, {b.x, b.y}), on_ring});
       }
   }
@@ -308,6 +325,7 @@ class PlanarVoronoi {
 
   const PointSet& points_;
   const Control& control_;
+  Underflow underflow_;
   PlanarSites sites_;
   Triangulation triangulation_;
   std::vector<Triangulation::Vertex_handle> vertices_;

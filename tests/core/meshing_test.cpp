@@ -217,6 +217,16 @@ double solid_angle(const Mesh& mesh, std::size_t f) {
   return sum;
 }
 
+// Products of such coordinates are below what doubles can hold: CGAL's filters fail on them.
+TEST(PlanarMeshes, OfCellsTakeTheSmallestCoordinatesThereAre) {
+  const auto box = std::make_shared<const BoxDomain>(1, 1);
+  const PointSet points{box, {0, 0, 1, 5e-324, 0.7, 5e-324, 0.4, 0.9}};
+  EXPECT_NEAR(measure_quality(voronoi_mesh(points, Control())).area, 1, 1e-9);
+  const auto polygon = std::make_shared<const Polygon>(
+      std::vector<std::vector<Vec2>>{{{0, 0}, {1, 1e-160}, {1, 1}, {1e-160, 1}}});
+  EXPECT_NEAR(measure_quality(voronoi_mesh(testing::mps_on(polygon, 29, 1), Control())).area, 1, 1e-9);
+}
+
 TEST(SphereMeshes, AreTheConvexHullAndItsDual) {
   const auto sphere = std::make_shared<Sphere>(0.7);
   for (const std::size_t n : {12u, 20u, 60u, 400u}) {
