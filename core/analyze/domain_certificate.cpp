@@ -149,6 +149,7 @@ std::optional<Certificate> certify_domain(const PointSet& points, const Control&
     proof.r_c_upper = from_straight(domain, radius + hidden) * (1 + rounding);
     const double straight =
         shortest(points, grid, to_straight(domain, measured.r_f_free) * (1 + 1e-9), control);
+    if (!(straight > hidden)) return std::nullopt;  // rounding hides how near the points are
     proof.r_f_lower = from_straight(domain, straight - hidden) * (1 - rounding);
     proof.beta_upper = proof.r_c_upper / proof.r_f_lower * (1 + rounding);
     return proof;

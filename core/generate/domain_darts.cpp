@@ -153,7 +153,9 @@ class DomainDarts {
     for (int level = 0; level < deepest && !active.empty(); ++level) {
       throw_at_curve(curve, active);
       std::vector<Interval> halves;
-      for (const Interval& whole : active) {
+      for (std::size_t k = 0; k < active.size(); ++k) {
+        if (k % between_checks == 0) control_.check();
+        const Interval& whole = active[k];
         if (is_covered(curve, whole)) continue;
         const double middle = 0.5 * (whole.begin + whole.end);
         for (const Interval& half : {Interval{whole.begin, middle}, Interval{middle, whole.end}})
@@ -168,6 +170,7 @@ class DomainDarts {
     double sum = 0;
     for (const Interval& i : active) sums.push_back(sum += i.end - i.begin);
     for (std::size_t dart = 0; dart < active.size(); ++dart) {
+      if (dart % between_checks == 0) control_.check();
       const double at = rng_.uniform() * sum;
       const auto k =
           std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), at) - sums.begin()),

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analyze/certificate.h"
+#include "core/analyze/domain_certificate.h"
 #include "core/analyze/domain_spacing.h"
 #include "core/analyze/spacing.h"
 #include "core/domain/grid_sizing.h"
@@ -144,6 +145,17 @@ TEST(DomainSets, OfVeryLargeRadiiAreMaximalOnSpheres) {
       }
     }
   }
+}
+
+/// So far from the origin that coordinates don't tell how near points are.
+TEST(DomainSets, HaveNoCertificateWhereRoundingHidesDistances) {
+  const double far = 1e12;
+  const auto square = std::make_shared<const Polygon>(
+      std::vector<std::vector<Vec2>>{{{far, far}, {far + 1, far}, {far + 1, far + 1}, {far, far + 1}}});
+  PointSet points{square, {}};
+  Rng rng(1);
+  for (int k = 0; k < 300; ++k) points.push_back(square->random_point(rng));
+  EXPECT_FALSE(certify_domain(points, plain).has_value());
 }
 
 /// Every cell of a grid of areas has about as many points as it should: strata are equal.

@@ -26,11 +26,12 @@ using testing::Refusal;
 TEST(ReadRequest, RefusesUnknownNamesAndListsTheKnownOnes) {
   expect_refusals({
       {"generate", R"({"count":10,"metod":"square"})", invalid, "/metod",
-       "known here are: allow_small_features, count, criterion, domain, method"},
+       "known here are: allow_small_features, barycentric, count, criterion, domain, method"},
       {"generate", R"({"cuont":10})", invalid, "/cuont", "count"},
       {"generate", R"({"method":"dart","count":10})", invalid, "/method",
        "poisson-disk, two-radii, white-noise, jittered"},
-      {"generate", R"({"method":"white-noise","radius":0.1})", invalid, "/radius", "known here are: count"},
+      {"generate", R"({"method":"white-noise","radius":0.1})", invalid, "/radius",
+       "known here are: barycentric, count"},
       {"generate", R"({"count":10,"domain":{"type":"klein bottle"}})", invalid, "/domain/type", "torus"},
       {"generate", R"({"count":10,"domain":{"depth":1}})", invalid, "/domain/depth",
        "height, periodic, type, width"},
@@ -314,7 +315,7 @@ TEST(ReadRequest, RefusesQueriesThatTheirFieldsDontAllow) {
       {{{"domain.width", ""}}, "/domain/width", "found a string"},
       {{{"points", "[[0,0]]"}}, "/points", "the points are the body"},
       {{{"points.generate.count", "9"}}, "/points", "the points are the body"},
-      {{{"gamma", "2"}}, "/gamma", "known here are: beta"},
+      {{{"gamma", "2"}}, "/gamma", "known here are: barycentric, beta"},
       {{{"", "2"}}, "/", "unknown field"},
       {{{".", "2"}}, "/", "unknown field"},
       {{{"method", "magic"}}, "/method", "opt-beta-local"},
