@@ -10,6 +10,7 @@ namespace wellspaced {
 namespace {
 
 constexpr std::uint32_t nobody = ~0u;
+constexpr std::size_t few = 16;  ///< points on a curved domain
 
 }  // namespace
 
@@ -45,19 +46,18 @@ double HoleFiller::fill_to(std::size_t count) {
   while (points_.size() < count) {
     collect(0);
     const std::size_t before = points_.size();
-    const std::size_t until = once ? count : std::min(count, before + before / 8 + 1);
+    const bool are_few = before < few && !points_.domain->is_flat();
+    if (are_few) look_at_triangles();
+    const std::size_t until = once && !are_few ? count : std::min(count, before + before / 8 + 1);
     while (points_.size() < until && take_deepest(0, hole)) insert(hole, 0);
-    if (points_.size() > before) continue;
-    hole = deepest_of_triangles();
-    if (!(hole.depth > 0)) break;
-    insert(hole, 0);
+    if (points_.size() == before) break;
   }
   return hole.depth;
 }
 
-/// Cells of two or three points on a closed surface have no corners in charts: then the deepest corner or
-/// middle of the domain's triangles.
-HoleFiller::Hole HoleFiller::deepest_of_triangles() {
+/// Few points on a curved domain have cells with corners that charts don't reach, or get wrong. From the
+/// deepest corner or middle of the domain's triangles it is not far to the deepest hole.
+void HoleFiller::look_at_triangles() {
   std::vector<Hole> places;
   for (const DomainTriangle& t : points_.domain->triangles()) {
     const Vec3 middle = points_.domain->middle(t[0], points_.domain->middle(t[1], t[2]));
@@ -76,7 +76,16 @@ HoleFiller::Hole HoleFiller::deepest_of_triangles() {
       places[k].depth =
           std::min(places[k].depth, distances[k] / rule_.distance(rule_.radius(places[k].at), r));
   }
-  return places.empty() ? Hole{} : *std::max_element(places.begin(), places.end(), ComesLater());
+  if (places.empty()) return;
+  Hole hole = *std::max_element(places.begin(), places.end(), ComesLater());
+  if (!points_.domain->has_exact_cells() && std::isfinite(hole.depth)) {
+    const double claimed = hole.depth * rule_.radius(hole.at);
+    const CornerSettler::Corner corner = settler_.settle(hole.at, claimed, false);
+    hole = {corner.distance / rule_.radius(corner.at), corner.at};
+    hole.depth = depth_of(hole);
+  }
+  heap_.push_back(hole);
+  std::push_heap(heap_.begin(), heap_.end(), ComesLater());
 }
 
 void HoleFiller::collect(double deeper_than) {
@@ -102,15 +111,16 @@ void HoleFiller::look(std::uint32_t i, double deeper_than) {
     }
 }
 
-/// Of the cell of a point with radius r.
+/// Of the cell of a point with radius r. Between two parts of a cell there is no hole; but where a seam of a
+/// chart ends, a cell meets itself behind a vertex, and no place around is farther away.
 void HoleFiller::look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than) {
   const Domain& domain = *points_.domain;
   const std::optional<Vec3> on_rim = is_outer ? domain.boundary_point_at(corner.at) : std::nullopt;
-  if (is_outer && !on_rim) return;
+  if (is_outer && !on_rim && domain.has_exact_cells()) return;
   if (on_rim) corner.at = *on_rim;
   const auto depth = [&] { return corner.distance / rule_.distance(rule_.radius(corner.at), r); };
   if (depth() * deepened_ <= deeper_than) return;
-  if (!domain.has_exact_cells()) corner = settler_.settle(corner.at, corner.distance, is_outer);
+  if (!domain.has_exact_cells()) corner = settler_.settle(corner.at, corner.distance, on_rim.has_value());
   if (depth() <= deeper_than) return;
   heap_.push_back({depth(), corner.at});
   std::push_heap(heap_.begin(), heap_.end(), ComesLater());

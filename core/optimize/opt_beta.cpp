@@ -326,6 +326,22 @@ OptimizeResult one_after_the_other(OptimizeResult first, OptimizeResult second) 
   return second;
 }
 
+OptimizeResult descend(const PointSet& input, const OptBetaOptions& options, Control& control) {
+  return Descent<MovingSet>(std::tie(input, std::as_const(control)), input, options, control).run();
+}
+
+/// Where corners of cells are searched for, what is found of them may differ by a little from one search to
+/// the next: a little more is aimed at, and the result is measured anew, as others will measure it.
+OptimizeResult on_inexact_cells(const PointSet& input, const OptBetaOptions& options, Control& control) {
+  constexpr double uncertain = 1e-3;
+  OptBetaOptions aims = options;
+  if (measure_ratio(input, control).beta() > options.beta)
+    aims.beta = std::max(floor_beta, options.beta * (1 - uncertain));
+  OptimizeResult result = descend(input, aims, control);
+  result.converged = measure_ratio(result.points, control).beta() <= options.beta;
+  return result;
+}
+
 }  // namespace
 
 int allowed_visits(const OptBetaOptions& options) {
@@ -348,8 +364,8 @@ OptimizeResult opt_beta(const PointSet& input, const OptBetaOptions& options, Co
   const int most_sweeps = allowed_visits(options);
   require_options(options);
   require_usable(input, control);
-  if (!is_plain_torus(input))
-    return Descent<MovingSet>(std::tie(input, std::as_const(control)), input, options, control).run();
+  if (!input.domain->has_exact_cells()) return on_inexact_cells(input, options, control);
+  if (!is_plain_torus(input)) return descend(input, options, control);
   if (StarMesh::why_too_small(*input.domain, input.size()))
     return by_local_ratios(input, options, most_sweeps, control);
   if (auto mesh = try_mesh(input, control))

@@ -94,10 +94,11 @@ double CellFinder::outradius2() const {
 double CellFinder::outradius(double at_least) {
   const Domain& domain = *points_->domain;
   if (domain.has_exact_cells()) return domain.chart_to_distance(std::sqrt(outradius2()));
+  constexpr double slack = 0.9;  // corners may turn out to be farther away than they say
   double most = 0;
   for (const Cell& part : parts())
     for (std::size_t k = 0; k < part.corners().size(); ++k)
-      if (norm(part.corners()[k].at) > std::max(at_least, most))
+      if (norm(part.corners()[k].at) > std::max(at_least, slack * most))
         most = std::max(most, distance_of_corner(part, k));
   return most;
 }
