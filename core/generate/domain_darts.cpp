@@ -209,10 +209,13 @@ class DomainDarts {
       throw_at_triangles(active);
       drop_covered(active);
       std::vector<DomainTriangle> parts;
-      for (const DomainTriangle& triangle : active)
-        for (const DomainTriangle& half : halves(triangle))
-          for (const DomainTriangle& quarter : halves(half)) parts.push_back(quarter);
-      drop_covered(parts);
+      for (std::size_t k = 0; k < active.size(); ++k) {
+        if (k % between_checks == 0) control_.check();
+        for (const DomainTriangle& half : halves(active[k]))
+          for (const DomainTriangle& quarter : halves(half))
+            if (are_small_ || !is_covered(quarter)) parts.push_back(quarter);
+      }
+      if (are_small_) drop_covered(parts);
       active.swap(parts);
       control_.report({std::min(0.95, 0.3 + 0.05 * round)});
     }

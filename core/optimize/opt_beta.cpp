@@ -333,7 +333,7 @@ OptimizeResult descend(const PointSet& input, const OptBetaOptions& options, Con
 /// Where corners of cells are searched for, what is found of them may differ by a little from one search to
 /// the next: a little more is aimed at, and the result is measured anew, as others will measure it.
 OptimizeResult on_inexact_cells(const PointSet& input, const OptBetaOptions& options, Control& control) {
-  constexpr double uncertain = 1e-3;
+  constexpr double uncertain = 3e-4;
   OptBetaOptions aims = options;
   if (measure_ratio(input, control).beta() > options.beta)
     aims.beta = std::max(floor_beta, options.beta * (1 - uncertain));
