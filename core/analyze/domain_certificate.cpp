@@ -140,6 +140,7 @@ bool can_be_certified(const PointSet& points) {
 std::optional<Certificate> certify_domain(const PointSet& points, const Control& control) {
   const Domain& domain = *points.domain;
   const Spacing measured = measure_spacing(points, control);
+  if (measured.r_c >= domain.horizon() * (1 - 1e-6)) return std::nullopt;  // such a disk isn't convex
   const NeighborGrid grid(points, hexagonal_spacing(domain, points.size()));
   const double hidden = rounding * (norm(domain.box().size) + norm(domain.box().low));
   for (const double above : {1e-11, 1e-9, 1e-7, 1e-6}) {

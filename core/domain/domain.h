@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -173,6 +174,11 @@ class Domain {
   virtual double chart_to_distance(double u) const = 0;
   /// The other way round, for distances that the chart has room for; the greatest length it has for others.
   virtual double distance_to_chart(double distance) const { return distance; }
+
+  /// How far charts reach, where a cell may go on beyond: a sphere's, a quarter turn. What is there, the
+  /// chart at the opposite place shows: the way there leads through it, and what is `u` here is -u there, so
+  /// the half-plane n.u <= c is n.u <= -c.
+  virtual double horizon() const { return HUGE_VAL; }
 
   /// The tangent vector at base that leads straight to a neighbor, localized, as long as the way is.
   virtual Vec2 way_to(Vec3, const Neighbor& neighbor) const { return {neighbor.offset.x, neighbor.offset.y}; }

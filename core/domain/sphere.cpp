@@ -107,6 +107,8 @@ double Sphere::distance_to_chart(double distance) const {
   return radius_ * tangent(std::min(distance / radius_, widest));
 }
 
+double Sphere::horizon() const { return radius_ * pi / 2; }
+
 Vec2 Sphere::way_to(Vec3 base, const Neighbor& neighbor) const {
   const Vec3 here = unit(base), there = unit(base + neighbor.offset);
   const Vec2 t = Frame(here).coordinates(there - here);

@@ -36,6 +36,7 @@ class Sphere final : public Domain {
                  std::span<HalfPlane> out) const override;
   double chart_to_distance(double u) const override;
   double distance_to_chart(double distance) const override;
+  double horizon() const override;
   Vec2 way_to(Vec3 base, const Neighbor& neighbor) const override;
   PolygonMoments moments(std::span<const Vec2> polygon) const override;
   std::vector<DomainTriangle> triangles() const override;

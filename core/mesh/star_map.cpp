@@ -1,27 +1,20 @@
 #include "core/mesh/star_map.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 
-#include "core/analyze/spacing.h"
+#include "core/domain/sphere.h"
 #include "core/domain/surface_mesh.h"
 #include "core/domain/torus.h"
-#include "core/math.h"
 #include "core/mesh/border_chains.h"
+#include "core/mesh/too_coarse.h"
 #include "core/voronoi/domain_star.h"
 #include "core/voronoi/stars.h"
 
 namespace wellspaced {
 namespace {
-
-std::string short_number(double x) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr};
-}
 
 std::int16_t whole_turns(double difference, double period) {
   return static_cast<std::int16_t>(std::lround(difference / period));
@@ -82,24 +75,9 @@ class TopologyCheck {
     const std::size_t parts = mesh != nullptr ? mesh->mesh().facts().components : 1;
     const std::size_t borders = mesh != nullptr ? mesh->mesh().facts().boundaries : 0;
     if (euler_characteristic() == points_.domain->euler_characteristic() && components() == parts &&
-        map_.borders_ == borders && !has_slivers())
+        map_.borders_ == borders && !has_slivers() && !is_turned_in())
       return;
-    refuse();
-  }
-
-  [[noreturn]] void refuse() const {
-    const double r_c = measure_spacing(points_, control_).r_c;
-    double would_do = r_c / 2;
-    std::string because;
-    if (const auto* const mesh = dynamic_cast<const SurfaceMesh*>(points_.domain.get())) {
-      const SmallestFeature feature = mesh->smallest_feature();
-      if (feature.length < r_c && feature.length > r_c / 8) would_do = feature.length;
-      because = "; the smallest feature is " + short_number(feature.length) + ", " + feature.description;
-    }
-    throw Error(ErrorCode::infeasible,
-                "the points are too few to follow the domain: with a coverage radius of " +
-                    short_number(r_c) + ", their Delaunay triangles are no surface of the same topology; " +
-                    short_number(would_do) + " would do" + because);
+    throw too_coarse(points_, control_);
   }
 
  private:
@@ -128,6 +106,17 @@ class TopologyCheck {
   bool has_slivers() const {
     for (std::size_t f = 0; f < map_.faces(); ++f)
       if (map_.face(f).size() < 3) return true;
+    return map_.faces() == 0;
+  }
+
+  /// A face of a sphere whose circle is a quarter turn wide or more: all points are on one side of a plane
+  /// through the center.
+  bool is_turned_in() const {
+    if (dynamic_cast<const Sphere*>(points_.domain.get()) == nullptr) return false;
+    for (std::size_t f = 0; f < map_.faces(); ++f) {
+      const auto at = [&](std::size_t k) { return points_[map_.origin(map_.face(f)[k])]; };
+      if (!(dot(cross(at(1) - at(0), at(2) - at(0)), at(0)) > 0)) return true;
+    }
     return false;
   }
 

@@ -52,6 +52,8 @@ class StarMap {
   /// The one before and after it, counter-clockwise around the same point.
   std::uint32_t previous(std::uint32_t s) const;
   std::uint32_t next(std::uint32_t s) const;
+  /// The spoke along which the face to the left of s goes on.
+  std::uint32_t around_face(std::uint32_t s) const { return previous(spokes_[s].twin); }
   /// Whether some spoke of i leads to j.
   bool has_edge(std::size_t i, std::uint32_t j) const;
   /// The point whose spoke it is.
@@ -79,7 +81,6 @@ class StarMap {
   bool cut_double();
   void cut(std::uint32_t s);
   bool is_longer(std::uint32_t s, std::uint32_t other) const;
-  std::uint32_t around_face(std::uint32_t s) const { return previous(spokes_[s].twin); }
 
   bool is_torus_ = false;
   std::vector<std::uint32_t> first_, owner_;

@@ -13,6 +13,19 @@ namespace {
 
 constexpr std::size_t crowd = 256;  ///< a neighborhood of so many may take long
 
+/// Distance of a convex polygon's nearest place; infinite if it is empty.
+double nearest_to_origin(std::span<const Cell::Corner> polygon) {
+  double nearest = std::numeric_limits<double>::infinity();
+  bool is_inside = !polygon.empty();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k].at, along = polygon[k + 1 == polygon.size() ? 0 : k + 1].at - a;
+    const double part = norm2(along) > 0 ? std::clamp(-dot(a, along) / norm2(along), 0.0, 1.0) : 0;
+    nearest = std::min(nearest, norm(a + part * along));
+    is_inside = is_inside && cross(a, along) >= 0;
+  }
+  return is_inside ? 0 : nearest;
+}
+
 }  // namespace
 
 CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double reach, const Control& control)
@@ -93,7 +106,7 @@ double CellFinder::outradius2() const {
 
 double CellFinder::outradius(double at_least) {
   const Domain& domain = *points_->domain;
-  if (domain.has_exact_cells()) return domain.chart_to_distance(std::sqrt(outradius2()));
+  if (domain.has_exact_cells()) return distance_of_farthest();
   constexpr double slack = 0.9;  // corners may turn out to be farther away than they say
   double most = 0;
   for (const Cell& part : parts())
@@ -218,8 +231,28 @@ CellFinder::Radii CellFinder::radii_by_clipping(Vec2 u) {
     nearest2 = std::min(nearest2, n2 > 0 ? h.c * std::fabs(h.c) / n2 : 0);
   }
   const Domain& domain = *points_->domain;
-  return {2 * domain.chart_to_distance(std::sqrt(std::max(0.0, nearest2))),
-          domain.chart_to_distance(std::sqrt(outradius2()))};
+  return {2 * domain.chart_to_distance(std::sqrt(std::max(0.0, nearest2))), distance_of_farthest()};
+}
+
+/// As the chart has it; and where the cell goes on past where that ends, beyond.
+double CellFinder::distance_of_farthest() {
+  const Domain& domain = *points_->domain;
+  if (!clipped_ && std::isfinite(domain.horizon()) && !cell_.closed()) return distance_beyond_horizon();
+  return domain.chart_to_distance(std::sqrt(outradius2()));
+}
+
+/// Ways to the opposite place lead on into all directions, so what is nearest to that is farthest from here.
+double CellFinder::distance_beyond_horizon() {
+  const Domain& domain = *points_->domain;
+  Cell beyond;
+  for (const double wide : {1e2, 1e6}) {  // in what the chart shows of half the way to the horizon
+    const double reach = wide * domain.distance_to_chart(domain.horizon() / 2);
+    beyond.reset(reach);
+    for (const HalfPlane& h : half_planes_) beyond.clip({h.n, -h.c}, 0);
+    const double nearest = nearest_to_origin(beyond.corners());
+    if (nearest < reach) return 2 * domain.horizon() - domain.chart_to_distance(nearest);
+  }
+  return domain.horizon();
 }
 
 }  // namespace wellspaced

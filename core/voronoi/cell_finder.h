@@ -54,7 +54,7 @@ class CellFinder {
   /// Of what parts() are together: farthest corner's distance in the chart, squared; integrals.
   double outradius2() const;
   PolygonMoments moments();
-  /// Distance of the farthest corner of the cell from the loaded sample where it is. Where the domain's
+  /// Distance of the farthest place of the cell from the loaded sample where it is. Where the domain's
   /// charts are not exact, corners that say more than `at_least` are looked for on the domain itself.
   double outradius(double at_least = 0);
   /// The same of the corner number k of a part.
@@ -76,6 +76,8 @@ class CellFinder {
   void load_star();
   std::optional<Radii> radii_by_star(Vec2 u);
   Radii radii_by_clipping(Vec2 u);
+  double distance_of_farthest();
+  double distance_beyond_horizon();
 
   const PointSet* points_;
   const NeighborGrid* grid_;

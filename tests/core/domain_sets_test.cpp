@@ -1,6 +1,7 @@
 // Generators, optimizers and measures on every kind of domain, against oracles that know nothing of cells.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -366,6 +367,43 @@ TEST(MeasureDomainSpacing, ValencesOfASphereObeyEuler) {
   int sum = 0;
   for (const auto& [valence, count] : s.valence) sum += valence * static_cast<int>(count);
   EXPECT_EQ(sum, 6 * static_cast<int>(points.size()) - 12);
+}
+
+/// The radius of the smallest cap that holds all points, by what it is about: one, two or three of them.
+/// What is farthest from all is the opposite place of its center, where it is no more than half a sphere.
+TEST(MeasureDomainSpacing, OfPointsInOneHalfOfASphereSeesPastTheHorizon) {
+  Rng rng(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double radius = trial % 2 == 0 ? 1 : 3;
+    PointSet points{std::make_shared<Sphere>(radius), {}};
+    const std::size_t n = 3 + static_cast<std::size_t>(trial % 9);
+    const double low = trial % 3 == 0 ? 0.9 : 0.05;
+    while (points.size() < n) {
+      const Vec3 p = points.domain->random_point(rng);
+      if (p.z > low * radius) points.push_back(p);
+    }
+    double farthest = 0;
+    const auto look = [&](Vec3 center) {
+      if (!(norm(center) > 1e-9)) return;
+      for (const double sign : {1.0, -1.0}) {
+        const Vec3 at = (sign * radius / norm(center)) * center;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < n; ++i)
+          nearest = std::min(nearest, points.domain->distance(at, points[i]));
+        farthest = std::max(farthest, nearest);
+      }
+    };
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        look(points[i] + points[j]);
+        for (std::size_t k = 0; k < j; ++k) look(cross(points[j] - points[i], points[k] - points[i]));
+      }
+    EXPECT_NEAR(measure_spacing(points, plain).r_c, farthest, 1e-9 * radius)
+        << n << " points, trial " << trial;
+    EXPECT_FALSE(certify(points, plain).has_value());
+  }
+  PointSet axes{std::make_shared<Sphere>(1), {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  EXPECT_NEAR(measure_spacing(axes, plain).r_c, std::numbers::pi - std::acos(1 / std::sqrt(3.0)), 1e-12);
 }
 
 TEST(Certify, ProvesBoundsOnEveryDomainThatHoldWhatBruteForceFinds) {

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/domain/sphere.h"
 #include "core/domain/surface_mesh.h"
 #include "core/mesh/mesh_quality.h"
 #include "core/optimize/opt_beta.h"
@@ -285,6 +286,74 @@ TEST(SurfaceMeshes, HaveTheTopologyOfTheSurfaceAndAboutItsArea) {
     const double boundary = boundary_length_of(cells);
     EXPECT_NEAR(boundary, surface->boundary_length(), 0.03 * surface->boundary_length());
   }
+}
+
+/// A flat patch as a mesh: the right triangle, or the square without its upper right quarter.
+std::vector<NamedDomain> flat_patches() {
+  const Triangles triangle = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const Triangles angle = {{{0, 0, 0}, {1, 0, 0}, {1, .5, 0}, {.5, .5, 0}, {.5, 1, 0}, {0, 1, 0}},
+                           {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}}};
+  return {{"triangle", std::make_shared<SurfaceMesh>(TriangleMesh(triangle))},
+          {"angle", std::make_shared<SurfaceMesh>(TriangleMesh(angle))}};
+}
+
+TEST(SurfaceMeshes, OfCellsOnFlatPatchesCoverThemAndHoldWhatIsNearest) {
+  for (const NamedDomain& d : flat_patches())
+    for (const std::size_t n : {10u, 20u, 50u, 150u})
+      for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        SCOPED_TRACE(d.name + ", " + std::to_string(n) + " points, seed " + std::to_string(seed));
+        const PointSet points = darts_on(d.domain, n, seed);
+        const Mesh mesh = voronoi_mesh(points, plain);
+        double area = 0;
+        std::vector<bool> has_cell(points.size(), false);
+        for (std::size_t f = 0; f < mesh.faces(); ++f) {
+          area += area_vector(mesh, f).z;
+          const std::uint32_t owner = mesh.face_points[f];
+          has_cell[owner] = true;
+          for (const std::uint32_t v : mesh[f]) {
+            const Vec3 at = mesh.vertices[v];
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < points.size(); ++i) nearest = std::min(nearest, norm(points[i] - at));
+            ASSERT_LE(norm(points[owner] - at), nearest + 1e-9);
+          }
+        }
+        EXPECT_NEAR(area, d.domain->area(), 1e-9);
+        EXPECT_EQ(std::count(has_cell.begin(), has_cell.end(), true), static_cast<long>(points.size()));
+      }
+}
+
+TEST(SurfaceMeshes, HaveACellOfEveryPointOrAreRefused) {
+  const NamedDomain d = {"tetrahedron", std::make_shared<SurfaceMesh>(TriangleMesh(testing::tetrahedron()))};
+  std::size_t made = 0;
+  for (const std::size_t n : {3u, 5u, 8u, 12u, 20u, 60u})
+    for (std::uint64_t seed = 0; seed < 5; ++seed)
+      for (const PointSet& points : {white_noise_on(d.domain, n, seed), darts_on(d.domain, n, seed)}) try {
+          const Mesh mesh = voronoi_mesh(points, plain);
+          ++made;
+          EXPECT_EQ(mesh.faces(), points.size());
+          for (std::size_t f = 0; f < mesh.faces(); ++f) EXPECT_GT(norm(area_vector(mesh, f)), 0);
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::infeasible) << error.what();
+          EXPECT_LT(points.size(), 20u) << error.what();
+        }
+  EXPECT_GT(made, 20u);
+}
+
+TEST(SphereMeshes, OfPointsInOneHalfAreRefused) {
+  PointSet points{std::make_shared<Sphere>(2), {}};
+  for (const Vec3 p : {Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}}) points.push_back(p);
+  for (const auto make : {delaunay_mesh, voronoi_mesh})
+    testing::expect_refusal([&] { make(points, plain); },
+                            {"mesh", "3 points", ErrorCode::infeasible, "", "one half of the sphere"});
+}
+
+TEST(SurfaceMeshes, NameTheCornerOfTheBorderThatIsNoPoint) {
+  PointSet points{flat_patches().front().domain, {}};
+  for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.3, 0.3, 0}, Vec3{0.1, 0.6, 0}})
+    points.push_back(p);
+  testing::expect_refusal([&] { voronoi_mesh(points, plain); },
+                          {"mesh", "4 points", ErrorCode::infeasible, "",
+                           "the corner (0, 1, 0) of the domain's border is no point"});
 }
 
 TEST(SurfaceMeshes, WithTooFewPointsAreRefusedWithARadiusThatWillDo) {
