@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "core/domain/near_pair.h"
 #include "core/domain/torus.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace wellspaced {
 namespace {
@@ -32,11 +32,21 @@ void require_in_domain(const PointSet& points, const Control& control) {
   }
 }
 
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
+/// Else there are places without a way to any point.
+void require_in_every_part(const PointSet& points) {
+  const Domain& domain = *points.domain;
+  if (domain.parts() < 2) return;
+  std::vector<bool> has_point(domain.parts(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) has_point[domain.part_of(points[i])] = true;
+  const auto bare = std::find(has_point.begin(), has_point.end(), false) - has_point.begin();
+  if (static_cast<std::size_t>(bare) == has_point.size()) return;
+  const Vec3 at = domain.place_in(static_cast<std::size_t>(bare));
+  throw Error(
+      ErrorCode::degenerate_input,
+      "the part of the domain with (" + short_number(at.x) + ", " + short_number(at.y) + ", " +
+          short_number(at.z) +
+          ") has no point, so the coverage radius r_c is infinite; add one there, or give these points a "
+          "domain without that part");
 }
 
 /// What to say of a pair that is nearer than `limit`.
@@ -45,8 +55,8 @@ std::string why_too_near(const NearPair& pair, double limit) {
   if (pair.distance == 0)
     return "the point repeats " + other +
            ", so the conflict radius r_f is 0 and beta is not defined; remove one of them";
-  return "the point is only " + text_of(pair.distance) + " away from " + other + "; points nearer than " +
-         text_of(limit) +
+  return "the point is only " + short_number(pair.distance) + " away from " + other +
+         "; points nearer than " + short_number(limit) +
          " (1e-10 of the longer side of the domain's box) can't be told apart well enough to measure them; "
          "remove one of them or move them apart";
 }
@@ -81,6 +91,7 @@ void require_usable(const PointSet& points, const Control& control) {
     throw Error(ErrorCode::degenerate_input,
                 "at least 3 points are needed; the point set has " + std::to_string(points.size()));
   require_in_domain(points, control);
+  require_in_every_part(points);
   const double limit = nearest_distance(*points.domain);
   if (const auto pair = find_near_pair(points, limit, control))
     throw Error(ErrorCode::degenerate_input, why_too_near(*pair, limit), "/" + std::to_string(pair->later));

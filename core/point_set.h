@@ -59,10 +59,10 @@ double nearest_distance(const Domain& domain);
 
 /// Refuses what no operation on spacing can work with.
 ///
-/// Errors: degenerate_input for fewer than 3 points; invalid_parameters at /17 or /17/1 for a NaN, an
-/// infinity, or a point outside the domain; degenerate_input at /17 for a point that repeats an earlier one
-/// or is nearer to it than nearest_distance.
-/// Errors also: cancelled, deadline_exceeded. Cost: O(n) for even sets, O(n log n) for any.
+/// Errors: degenerate_input for fewer than 3 points, and where a part of the domain has none;
+/// invalid_parameters at /17 or /17/1 for a NaN, an infinity, or a point outside the domain; degenerate_input
+/// at /17 for a point that repeats an earlier one or is nearer to it than nearest_distance. Errors also:
+/// cancelled, deadline_exceeded. Cost: O(n) for even sets, O(n log n) for any.
 void require_usable(const PointSet& points, const Control& control);
 
 }  // namespace wellspaced

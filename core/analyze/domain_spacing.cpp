@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analyze/few_points.h"
 #include "core/analyze/point_look.h"
 #include "core/analyze/spacing_star.h"
 #include "core/error.h"
@@ -69,6 +70,7 @@ LocalSpacing measure_domain_spacing(const PointSet& points, const Control& contr
   std::vector<PointLook> locals(set.size());
   for_each_look(set, control,
                 [&](std::size_t i, const PointLook& look, const DomainStar&) { locals[i] = look; });
+  see_far_places(points, control, locals);
   LocalSpacing result;
   result.beta_i.reserve(set.size());
   result.global = sum_up(set, locals, result.beta_i);

@@ -115,6 +115,13 @@ class Domain {
   virtual double boundary_length() const { return 0; }
   virtual int euler_characteristic() const = 0;  ///< of a triangulation: vertices - edges + faces
   virtual Box box() const = 0;
+  /// Parts between which there is no way, numbered from 0; which one p is in; some place of it.
+  virtual std::size_t parts() const { return 1; }
+  virtual std::size_t part_of(Vec3) const { return 0; }
+  virtual Vec3 place_in(std::size_t part) const {
+    (void)part;
+    return triangles().front()[0];
+  }
   /// The chart of every point is the plane that the domain lies in, moved there.
   virtual bool is_flat() const { return true; }
   /// Cells that are cut in charts are exact; else their corners are only about where they should be.

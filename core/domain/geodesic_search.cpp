@@ -15,6 +15,7 @@ constexpr double grazing =
     1e-12;  ///< of a ray's length: passing a vertex or a target so closely is hitting it
 constexpr double no_angle = 1e-13;  ///< radians
 constexpr double many_faces = 150;  ///< within reach: to look everywhere takes longer than to aim
+constexpr double many_times = 4;    ///< the area of the mesh, within reach
 constexpr double proof = 1e-10;     ///< relative: how much shorter a way would have to be to be worth a look
 constexpr double improvement = 1e-14;  ///< relative, of a way that only rounding makes shorter
 
@@ -69,6 +70,8 @@ void GeodesicSearch::run(Border border, std::size_t enough, Images images) {
   if (border == Border::ignore && !collects_images_ && targets_.size() <= most_aimed &&
       pi * reach_ * reach_ > many_faces * face)
     aim_at_targets();
+  const bool winds_around = pi * limit_ * limit_ > many_times * mesh_->facts().area;
+  if (winds_around && border == Border::ignore && !collects_images_) enough = 0;
   if (!run_in_any_order(enough)) run_nearest_first();
 }
 

@@ -21,8 +21,8 @@ namespace wellspaced {
 ///
 /// Where there are many faces within reach it first tries some way to each target: windows that can't lead to
 /// a shorter one, because not even the straight line through space does, are dropped. And where there are
-/// more than `enough_windows` it starts anew with the nearest window first, without those that can't be on a
-/// shortest way.
+/// more than `enough_windows`, or reach goes around the mesh several times, it starts anew with the nearest
+/// window first, without those that can't be on a shortest way.
 ///
 /// Guarantees: distances are exact but for rounding, about 1e-15 a face on the way, and 1e-10 where two ways
 /// are so equally long. Chart vectors lead along the first straight part of the way, and are as long as all

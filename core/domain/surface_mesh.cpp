@@ -67,6 +67,12 @@ const SmallestFeature& SurfaceMesh::smallest_feature() const {
   return smallest_feature_;
 }
 
+Vec3 SurfaceMesh::place_in(std::size_t part) const {
+  const std::vector<std::uint32_t>& components = mesh_.component_of_face();
+  const auto face = std::find(components.begin(), components.end(), part) - components.begin();
+  return mesh_.corner(static_cast<std::uint32_t>(face), 0);
+}
+
 MeshPlace SurfaceMesh::locate(Vec3 p) const { return spot(p).place; }
 
 SurfaceMesh::Spot SurfaceMesh::spot(Vec3 p) const {

@@ -64,6 +64,9 @@ class SurfaceMesh : public Domain {
   double boundary_length() const override { return border_.length(); }
   int euler_characteristic() const override { return mesh_.facts().euler_characteristic; }
   Box box() const override { return box_; }
+  std::size_t parts() const override { return mesh_.facts().components; }
+  std::size_t part_of(Vec3 p) const override { return mesh_.component_of_face()[spot(p).place.face]; }
+  Vec3 place_in(std::size_t part) const override;
   bool is_flat() const override { return false; }
   bool has_exact_cells() const override { return false; }
   /// Infinite between components.

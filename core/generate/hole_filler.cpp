@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include "core/voronoi/far_places.h"
+
 namespace wellspaced {
 namespace {
 
@@ -47,7 +49,7 @@ double HoleFiller::fill_to(std::size_t count) {
     collect(0);
     const std::size_t before = points_.size();
     const bool are_few = before < few && !points_.domain->is_flat();
-    if (are_few) look_at_triangles();
+    if (are_few) look_at_places();
     const std::size_t until = once && !are_few ? count : std::min(count, before + before / 8 + 1);
     while (points_.size() < until && take_deepest(0, hole)) insert(hole, 0);
     if (points_.size() == before) break;
@@ -55,36 +57,32 @@ double HoleFiller::fill_to(std::size_t count) {
   return hole.depth;
 }
 
-/// Few points on a curved domain have cells with corners that charts don't reach, or get wrong. From the
-/// deepest corner or middle of the domain's triangles it is not far to the deepest hole.
-void HoleFiller::look_at_triangles() {
-  std::vector<Hole> places;
-  for (const DomainTriangle& t : points_.domain->triangles()) {
-    const Vec3 middle = points_.domain->middle(t[0], points_.domain->middle(t[1], t[2]));
-    for (const Vec3 at : {t[0], t[1], t[2], middle})
-      if (points_.domain->freedom(at).dimensions == 2)
-        places.push_back({std::numeric_limits<double>::infinity(), at});
-  }
-  std::vector<double> distances;
+/// Few points on a curved domain have cells with corners that charts don't reach, or get wrong.
+void HoleFiller::look_at_places() {
+  constexpr std::size_t many = 512;
+  FarPlaces far(*points_.domain, many);
+  std::vector<double> depths(far.places().size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     control_.check();
-    neighbors_.clear();
-    for (const Hole& place : places) neighbors_.push_back({place.at - points_[i], nobody});
-    points_.domain->distances(points_[i], std::numeric_limits<double>::infinity(), neighbors_, distances);
     const double r = rule_.radius(points_[i]);
-    for (std::size_t k = 0; k < places.size(); ++k)
-      places[k].depth =
-          std::min(places[k].depth, distances[k] / rule_.distance(rule_.radius(places[k].at), r));
+    far.see_from(points_[i], [&](std::size_t k, double d) {
+      depths[k] = std::min(depths[k], d / rule_.distance(rule_.radius(far.places()[k]), r));
+    });
   }
-  if (places.empty()) return;
-  Hole hole = *std::max_element(places.begin(), places.end(), ComesLater());
-  if (!points_.domain->has_exact_cells() && std::isfinite(hole.depth)) {
-    const double claimed = hole.depth * rule_.radius(hole.at);
-    const CornerSettler::Corner corner = settler_.settle(hole.at, claimed, false);
-    hole = {corner.distance / rule_.radius(corner.at), corner.at};
-    hole.depth = depth_of(hole);
+  std::optional<Hole> deepest;
+  for (std::size_t k = 0; k < depths.size(); ++k) {
+    const Hole hole{depths[k], far.places()[k]};
+    if (points_.domain->freedom(hole.at).dimensions == 2 && (!deepest || ComesLater()(*deepest, hole)))
+      deepest = hole;
   }
-  heap_.push_back(hole);
+  if (!deepest) return;
+  if (!points_.domain->has_exact_cells() && std::isfinite(deepest->depth)) {
+    const double claimed = deepest->depth * rule_.radius(deepest->at);
+    const CornerSettler::Corner corner = settler_.settle(deepest->at, claimed, false);
+    deepest = Hole{corner.distance / rule_.radius(corner.at), corner.at};
+    deepest->depth = depth_of(*deepest);
+  }
+  heap_.push_back(*deepest);
   std::push_heap(heap_.begin(), heap_.end(), ComesLater());
 }
 

@@ -46,7 +46,7 @@ class HoleFiller {
   void look(std::uint32_t i, double deeper_than);
   void look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than);
   double depth_of(const Hole& hole);
-  void look_at_triangles();
+  void look_at_places();
   bool take_deepest(double deeper_than, Hole& deepest);
   void insert(const Hole& hole, double deeper_than);
 

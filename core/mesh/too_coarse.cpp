@@ -1,7 +1,6 @@
 #include "core/mesh/too_coarse.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -11,14 +10,10 @@
 #include "core/domain/surface_mesh.h"
 #include "core/math.h"
 #include "core/mesh/border_chains.h"
+#include "core/text.h"
 
 namespace wellspaced {
 namespace {
-
-std::string short_number(double x) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr};
-}
 
 std::string text_of(Vec3 p) {
   return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";

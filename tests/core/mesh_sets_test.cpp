@@ -186,6 +186,45 @@ TEST(MeshSets, OfFewPointsOnManyFacesAreMaximal) {
   }
 }
 
+TEST(MeshSets, OfFewPointsHaveTheirCoverageRadius) {
+  const auto mesh = std::make_shared<const SurfaceMesh>(TriangleMesh(
+      Triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}));
+  for (const std::size_t n : {3u, 4u, 5u, 8u, 12u, 30u})
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      Rng rng(seed);
+      PointSet points{mesh, {}};
+      for (std::size_t i = 0; i < n; ++i) points.push_back(mesh->random_point(rng));
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      std::vector<Vec3> places(2000);
+      for (Vec3& at : places) at = mesh->random_point(rng);
+      std::vector<double> nearest(places.size(), infinity), ways;
+      for (std::size_t i = 0; i < n; ++i) {
+        std::vector<Neighbor> all;
+        for (const Vec3 at : places) all.push_back({at - points[i], 0});
+        mesh->distances(points[i], infinity, all, ways);
+        for (std::size_t k = 0; k < all.size(); ++k) nearest[k] = std::min(nearest[k], ways[k]);
+      }
+      const double farthest = *std::max_element(nearest.begin(), nearest.end());
+      const double r_c = measure_spacing(points, plain).r_c;
+      EXPECT_GE(r_c, farthest * (1 - 1e-9)) << n << " points, seed " << seed;
+      EXPECT_LE(r_c, farthest * 1.1) << n << " points, seed " << seed;
+    }
+}
+
+TEST(MeshSets, WithoutPointsOnSomePartAreRefused) {
+  const auto mesh = std::make_shared<const SurfaceMesh>(TriangleMesh(
+      Triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}}, {{0, 1, 2}, {3, 4, 5}}}));
+  const PointSet points{mesh, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 0}};
+  try {
+    measure_spacing(points, plain);
+    ADD_FAILURE() << "r_c is infinite";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::degenerate_input);
+    EXPECT_NE(std::string(error.what()).find("with (0, 0, 5) has no point"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(MeshSets, CornersThatAreSettledAreAsFarAsTheySay) {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);

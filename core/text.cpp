@@ -1,0 +1,12 @@
+#include "core/text.h"
+
+#include <charconv>
+
+namespace wellspaced {
+
+std::string short_number(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr};
+}
+
+}  // namespace wellspaced

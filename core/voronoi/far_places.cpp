@@ -1,0 +1,36 @@
+#include "core/voronoi/far_places.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace wellspaced {
+namespace {
+
+std::vector<DomainTriangle> quarters(const Domain& domain, const std::vector<DomainTriangle>& whole) {
+  std::vector<DomainTriangle> parts;
+  parts.reserve(4 * whole.size());
+  for (const auto& [a, b, c] : whole) {
+    const Vec3 ab = domain.middle(a, b), bc = domain.middle(b, c), ca = domain.middle(c, a);
+    for (const DomainTriangle& part : {DomainTriangle{a, ab, ca}, DomainTriangle{ab, b, bc},
+                                       DomainTriangle{ca, bc, c}, DomainTriangle{ab, bc, ca}})
+      parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+FarPlaces::FarPlaces(const Domain& domain, std::size_t at_least) : domain_(domain) {
+  std::vector<DomainTriangle> triangles = domain.triangles();
+  while (triangles.size() < 2 * at_least) triangles = quarters(domain, triangles);
+  for (const DomainTriangle& t : triangles) {
+    places_.insert(places_.end(), t.begin(), t.end());
+    gap_ = std::max({gap_, norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
+  }
+  const auto before = [](Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::sort(places_.begin(), places_.end(), before);
+  places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+}
+
+}  // namespace wellspaced

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/control.h"
+#include "core/domain/domain.h"
+#include "core/point_set.h"
+
+namespace wellspaced {
+
+/// Places that lie all over a curved domain: corners of its triangles, halved until they are many. From those
+/// that are farthest from all points it is not far to the corners of cells; what charts get wrong where few
+/// points share a domain is found that way.
+class FarPlaces {
+ public:
+  /// At least about so many places: as many as there are corners, or more. Cost: O(places).
+  FarPlaces(const Domain& domain, std::size_t at_least);
+
+  std::span<const Vec3> places() const { return places_; }
+  /// Two places with less between them may lie around one corner of a cell.
+  double gap() const { return gap_; }
+
+  /// Calls see(k, distance) with the way from p to each place. Cost: one search over all of the domain.
+  template <class See>
+  void see_from(Vec3 p, const See& see) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    neighbors_.clear();
+    for (std::size_t k = 0; k < places_.size(); ++k) neighbors_.push_back({places_[k] - p, 0});
+    domain_.distances(p, infinity, neighbors_, distances_);
+    for (std::size_t k = 0; k < places_.size(); ++k) see(k, distances_[k]);
+  }
+
+ private:
+  const Domain& domain_;
+  std::vector<Vec3> places_;
+  double gap_ = 0;
+  std::vector<Neighbor> neighbors_;
+  std::vector<double> distances_;
+};
+
+}  // namespace wellspaced
