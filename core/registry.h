@@ -77,7 +77,7 @@ struct Generator : Method {
   PointSet (*run)(const Setting&, const Arguments&, Rng&, Control&) = nullptr;
   double (*expected_count)(const Setting&, const Arguments&) = nullptr;
   /// What can be refused before the work, beyond the parameters' ranges; same errors as `run`.
-  void (*check)(const Domain&, const Arguments&) = nullptr;
+  void (*check)(const Setting&, const Arguments&) = nullptr;
   Cost cost_a_point;  ///< on the torus
   Cost cost_elsewhere;
 };

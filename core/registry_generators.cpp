@@ -63,8 +63,11 @@ Parameter criterion() {
   return p;
 }
 
-void require_radius_if_given(const Domain& domain, const Arguments& a) {
-  if (const auto r = argument(a, "radius")) require_radius(domain, *r);
+/// For two points of the radius that is given, or of the least one that the sizing function wants.
+void require_room(const Setting& setting, const Arguments& a) {
+  if (argument(a, "count")) return;
+  if (setting.sizing != nullptr) return require_radius(*setting.domain, setting.sizing->least(), "/sizing");
+  if (const auto r = argument(a, "radius")) require_radius(*setting.domain, *r);
 }
 
 std::shared_ptr<const Torus> torus_of(const std::shared_ptr<const Domain>& domain) {
@@ -154,7 +157,7 @@ const std::vector<Generator> generator_rows = {
                   ? poisson_disk_count(setting.domain->area(), argument(a, "radius").value())
                   : expected_by_darts(setting, 1, a);
      },
-     require_radius_if_given,
+     require_room,
      {5e-6, 180},
      {5e-5, 500}},
     {{"two-radii",
@@ -178,7 +181,7 @@ const std::vector<Generator> generator_rows = {
        return is_plain_torus(setting) ? two_radii_count(setting.domain->area(), two_radii_options(a))
                                       : expected_by_darts(setting, std::sqrt(two_radii_options(a).beta), a);
      },
-     require_radius_if_given,
+     require_room,
      {1e-5, 260},
      {8e-5, 500}},
     {{"white-noise",
@@ -237,7 +240,7 @@ const std::vector<Generator> generator_rows = {
        return is_torus(*setting.domain) ? delaunay_refinement_count(setting.domain->area(), *r)
                                         : expected_by_darts(setting, 1, a);
      },
-     require_radius_if_given,
+     require_room,
      {1e-5, 200},
      {1e-4, 500}},
     {{"triangular",
@@ -277,7 +280,7 @@ const std::vector<Generator> generator_rows = {
      false,
      run_lattice<hexagonal_lattice>,
      counted,
-     [](const Domain&, const Arguments& a) { require_even(count_of(a)); },
+     [](const Setting&, const Arguments& a) { require_even(count_of(a)); },
      {3e-7, 64},
      {}},
 };

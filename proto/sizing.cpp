@@ -133,9 +133,7 @@ std::shared_ptr<const Sizing> image(Fields& fields, const Domain& domain) {
                              radius_field(fields, "white")};
   fields.refuse_unknown();
   for (const auto& [name, radius] : {std::pair{"black", source.black}, std::pair{"white", source.white}})
-    if (!(radius > 0))
-      throw Error(ErrorCode::invalid_parameters, "a radius must be a finite number above 0",
-                  fields.pointer_to(name));
+    Sizing::require_radius(radius, fields.pointer_to(name));
   try {
     const GrayImage gray = read_png_gray(decode_base64(source.png), most_pixels);
     RadiusGrid radii = radii_of_image(gray, source.black, source.white);

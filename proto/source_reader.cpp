@@ -118,7 +118,7 @@ GenerateRequest SourceReader::generate(Fields& fields) const {
   require_count(request.method->expected_count(setting_of(request), request.arguments), most_points_,
                 density_pointer(request));
   try {
-    if (request.method->check != nullptr) request.method->check(*request.domain, request.arguments);
+    if (request.method->check != nullptr) request.method->check(setting_of(request), request.arguments);
   } catch (const Error& error) {
     throw error.within(fields.pointer());
   }

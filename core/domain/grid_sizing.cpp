@@ -69,9 +69,9 @@ void GridSizing::check_radii() const {
     throw Error(ErrorCode::invalid_parameters, "there must be rows of radii, all of the same length",
                 "/radii");
   for (std::size_t k = 0; k < grid_.radii.size(); ++k)
-    if (!(grid_.radii[k] > 0) || !std::isfinite(grid_.radii[k]))
-      throw Error(ErrorCode::invalid_parameters, "a radius must be a finite number above 0",
-                  "/radii/" + std::to_string(k / grid_.columns) + "/" + std::to_string(k % grid_.columns));
+    if (!is_radius(grid_.radii[k]))
+      require_radius(grid_.radii[k],
+                     "/radii/" + std::to_string(k / grid_.columns) + "/" + std::to_string(k % grid_.columns));
 }
 
 Vec2 GridSizing::coordinates(Vec3 p) const {

@@ -6,14 +6,15 @@
 #include "core/error.h"
 
 namespace wellspaced {
-namespace {
 
-void require_radius(double radius, const char* where) {
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw Error(ErrorCode::invalid_parameters, "a radius must be a finite number above 0", where);
+void Sizing::require_radius(double radius, const std::string& where) {
+  if (is_radius(radius)) return;
+  const bool is_none = !(radius > 0) || !std::isfinite(radius);
+  throw Error(ErrorCode::invalid_parameters,
+              is_none ? "a radius must be a finite number above 0"
+                      : "a radius must be a number from 1e-100 to 1e100; give it in lengths of the domain",
+              where);
 }
-
-}  // namespace
 
 ConstantSizing::ConstantSizing(double radius) : radius_(radius) { require_radius(radius, "/radius"); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,12 @@ namespace wellspaced {
 /// immutable after construction.
 class Sizing {
  public:
+  /// So that their squares and ratios are finite.
+  static constexpr double least_radius = 1e-100, most_radius = 1e100;
+  static bool is_radius(double r) { return r >= least_radius && r <= most_radius; }
+  /// Errors: invalid_parameters at `where`.
+  static void require_radius(double radius, const std::string& where);
+
   virtual ~Sizing() = default;
 
   virtual std::string_view type() const = 0;  ///< its name in requests: "constant"
@@ -33,7 +40,7 @@ class Sizing {
 
 /// The same radius everywhere.
 ///
-/// Errors of the constructor: invalid_parameters at /radius unless it is positive and finite.
+/// Errors of the constructor: invalid_parameters at /radius; see require_radius.
 class ConstantSizing final : public Sizing {
  public:
   explicit ConstantSizing(double radius);
@@ -59,7 +66,7 @@ struct LinearSizingOptions {
 ///
 /// On a domain that is periodic along the axis r jumps from `to` back to `from` at the seam: lipschitz() is
 /// that of the inside. Errors of the constructor: invalid_parameters at /axis for an axis that points of the
-/// domain don't have, at /from and /to for radii that are not positive and finite. Requires: the box has an
+/// domain don't have, at /from and /to; see require_radius. Requires: the box has an
 /// extent along the axis.
 class LinearSizing final : public Sizing {
  public:

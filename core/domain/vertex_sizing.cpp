@@ -18,9 +18,7 @@ void require_radii(const std::vector<double>& radii, std::size_t vertices) {
                     std::to_string(vertices) + " vertices; give one for each",
                 "/radii");
   for (std::size_t k = 0; k < radii.size(); ++k)
-    if (!(radii[k] > 0) || !std::isfinite(radii[k]))
-      throw Error(ErrorCode::invalid_parameters, "a radius must be a finite number above 0",
-                  "/radii/" + std::to_string(k));
+    if (!Sizing::is_radius(radii[k])) Sizing::require_radius(radii[k], "/radii/" + std::to_string(k));
 }
 
 /// Of what is linear on a triangle with edges a and b from one corner, and rises by so much along them.

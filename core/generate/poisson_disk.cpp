@@ -2,24 +2,30 @@
 
 #include <string>
 
+#include "core/domain/sphere.h"
 #include "core/generate/dart_throwing.h"
 #include "core/generate/generate.h"
+#include "core/math.h"
+#include "core/text.h"
 
 namespace wellspaced {
-void require_radius(const Domain& domain, double radius) {
-  const double farthest = norm(domain.box().size) / 2;
+
+void require_radius(const Domain& domain, double radius, const std::string& where) {
+  const auto* const sphere = dynamic_cast<const Sphere*>(&domain);
+  const double most = sphere != nullptr ? pi * sphere->radius() : norm(domain.box().size) / 2;
   if (!(radius > 0))
-    throw Error(ErrorCode::invalid_parameters, "the conflict radius must be greater than 0", "/radius");
-  if (radius > farthest && !is_torus(domain))
+    throw Error(ErrorCode::invalid_parameters, "the conflict radius must be greater than 0", where);
+  if (radius <= most) return;
+  const std::string type(domain.type()), limit = short_number(most);
+  if (sphere == nullptr && !is_torus(domain))
     throw Error(ErrorCode::infeasible,
-                "a conflict radius above " + std::to_string(farthest) + " is larger than this " +
-                    std::string(domain.type()) + " has room for; choose a smaller one",
-                "/radius");
-  if (radius > farthest)
-    throw Error(ErrorCode::infeasible,
-                "no two points of this torus are farther apart than " + std::to_string(farthest) +
-                    ", so a larger conflict radius leaves room for one sample only; choose a smaller one",
-                "/radius");
+                "a conflict radius above " + limit + " is larger than this " + type +
+                    " has room for; choose a smaller one",
+                where);
+  throw Error(ErrorCode::infeasible,
+              "no two points of this " + type + " are farther apart than " + limit +
+                  ", so a larger conflict radius leaves room for one sample only; choose a smaller one",
+              where);
 }
 
 PointSet poisson_disk(const std::shared_ptr<const Torus>& torus, const PoissonDiskOptions& options, Rng& rng,

@@ -14,8 +14,8 @@ struct PoissonDiskOptions {
   double radius = 0;  ///< conflict radius r, domain lengths; more than 0, at most half the torus's diagonal
 };
 
-/// Errors: invalid_parameters or infeasible at /radius, as for poisson_disk.
-void require_radius(const Domain& domain, double radius);
+/// Errors: invalid_parameters or infeasible at `where`, as for poisson_disk.
+void require_radius(const Domain& domain, double radius, const std::string& where = "/radius");
 
 /// Maximal Poisson-disk sampling (MPS) of a torus: random points, none nearer than r to another, none can be
 /// added.

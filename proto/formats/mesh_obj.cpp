@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/error.h"
 #include "proto/formats/excerpt.h"
 #include "proto/formats/mesh_text.h"
 #include "proto/formats/polygon_mesh.h"
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, 19> skipped = {
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, const MeshLimits& limits)
-      : text_(bytes, "OBJ file"), mesh_(limits, "OBJ file", "line") {}
+      : text_(bytes, "OBJ file"), mesh_(limits, "OBJ file", "line", 1) {}
 
   Triangles read() {
     while (text_.next_line()) {
@@ -58,10 +59,22 @@ class ObjReader {
       if (rest.find_first_not_of("/-+0123456789") != std::string_view::npos)
         text_.malformed("has " + excerpt(word) + " for a corner; write a, a/t, a/t/n or a//n");
       const std::int64_t index = text_.integer(word.substr(0, word.size() - rest.size()), "a vertex");
-      if (index == 0) text_.malformed("uses vertex 0; vertices of an OBJ file are counted from 1");
-      mesh_.add_corner(index > 0 ? index - 1 : static_cast<std::int64_t>(mesh_.vertices()) + index);
+      mesh_.add_corner(index > 0 ? index - 1 : counted_back(index));
     }
     mesh_.close_face(line);
+  }
+
+  /// -1 is the last vertex so far.
+  std::int64_t counted_back(std::int64_t index) const {
+    if (index == 0) text_.malformed("uses vertex 0; vertices of an OBJ file are counted from 1");
+    const auto so_far = static_cast<std::int64_t>(mesh_.vertices());
+    if (index < -so_far)
+      throw Error(ErrorCode::invalid_parameters,
+                  "face " + std::to_string(mesh_.faces()) + " (" + text_.place() + ") uses vertex " +
+                      std::to_string(index) + " (counted back from the last one above it), but there are " +
+                      std::to_string(so_far) + " above it",
+                  "/faces/" + std::to_string(mesh_.faces()));
+    return so_far + index;
   }
 
   MeshText text_;

@@ -62,12 +62,15 @@ Triangles read_off(std::string_view bytes, const MeshLimits& limits) {
   mesh.expect_faces(faces);
   for (std::uint64_t v = 0; v < vertices; ++v) {
     if (!text.next_line())
-      text.malformed("is the last, but vertex " + std::to_string(v) + " is still to come");
+      text.malformed("is the last, but vertex " + std::to_string(v) +
+                     " is still to come; the file is truncated, or its counts are too high");
     const double x = text.number(text.next_word(), "x"), y = text.number(text.next_word(), "y");
     mesh.add_vertex({x, y, text.number(text.next_word(), "z")});
   }
   for (std::uint64_t f = 0; f < faces; ++f) {
-    if (!text.next_line()) text.malformed("is the last, but face " + std::to_string(f) + " is still to come");
+    if (!text.next_line())
+      text.malformed("is the last, but face " + std::to_string(f) +
+                     " is still to come; the file is truncated, or its counts are too high");
     const std::int64_t corners = text.integer(text.next_word(), "a number of corners");
     for (std::int64_t k = 0; k < corners; ++k) mesh.add_corner(text.integer(text.next_word(), "a vertex"));
     mesh.close_face(text.line_number());

@@ -25,7 +25,8 @@ class AsciiValues {
     return static_cast<double>(text_->integer(word, "a whole number"));
   }
   void skip(PlyType) {
-    if (text_->next_word_anywhere().empty()) text_->malformed("is the last, but there is more to come");
+    if (text_->next_word_anywhere().empty())
+      text_->malformed("is the last, but there is more to come; the file is truncated");
   }
   /// Of the next value.
   std::size_t place() const {

@@ -41,6 +41,15 @@ const json& member(const json& object, const char* name, const std::string& poin
   return *found;
 }
 
+PolygonText read_geometry(const json& value, const std::string& pointer) {
+  if (!value.is_object()) refuse("expected a GeoJSON geometry, found " + describe(value), pointer);
+  const json& type = member(value, "type", pointer);
+  if (type == "Feature" || type == "FeatureCollection")
+    refuse("a " + type.get<std::string>() + " is no geometry; leave out the Feature around it",
+           pointer + "/type");
+  return read_geojson(value, pointer);
+}
+
 PolygonText read_multipolygon(const json& value, const std::string& pointer) {
   const auto& polygons = array_of(value, "an array of polygons", pointer);
   if (polygons.size() != 1)
@@ -114,7 +123,7 @@ PolygonText read_geojson(const json& value, const std::string& pointer) {
   if (type == "Polygon") return read_rings(member(value, "coordinates", pointer), pointer + "/coordinates");
   if (type == "MultiPolygon")
     return read_multipolygon(member(value, "coordinates", pointer), pointer + "/coordinates");
-  if (type == "Feature") return read_geojson(member(value, "geometry", pointer), pointer + "/geometry");
+  if (type == "Feature") return read_geometry(member(value, "geometry", pointer), pointer + "/geometry");
   if (type != "FeatureCollection")
     refuse(type.is_string() && is_geojson_type(type.get_ref<const std::string&>())
                ? "a " + type.get<std::string>() +

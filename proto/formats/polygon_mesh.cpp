@@ -56,8 +56,9 @@ std::size_t PolygonMesh::read_corners(std::size_t face, Corners& corners) const 
     const std::int64_t index = corners_[begin + k];
     if (index < 0 || index >= static_cast<std::int64_t>(vertices_.size()))
       throw Error(ErrorCode::invalid_parameters,
-                  name_of_face(face) + " uses vertex " + std::to_string(index) +
-                      " (counted from 0), but there are " + std::to_string(vertices_.size()),
+                  name_of_face(face) + " uses vertex " + std::to_string(index + first_vertex_) +
+                      " (counted from " + std::to_string(first_vertex_) + "), but there are " +
+                      std::to_string(vertices_.size()),
                   "/faces/" + std::to_string(face));
     corners[k] = static_cast<std::uint32_t>(index);
   }

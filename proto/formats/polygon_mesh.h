@@ -16,15 +16,17 @@ class PolygonMesh {
  public:
   static constexpr std::size_t most_corners = 64;
 
-  /// `what` the file is and what its places are counted in, for messages: "OFF file", "line".
-  PolygonMesh(const MeshLimits& limits, std::string what, std::string unit)
-      : limits_(limits), what_(std::move(what)), unit_(std::move(unit)) {}
+  /// `what` the file is, what its places are counted in, and the number of its first vertex, for messages:
+  /// "OFF file", "line", 0.
+  PolygonMesh(const MeshLimits& limits, std::string what, std::string unit, std::int64_t first_vertex = 0)
+      : limits_(limits), what_(std::move(what)), unit_(std::move(unit)), first_vertex_(first_vertex) {}
 
   /// So many are announced, and fit into the bytes that are there. Errors: too_large.
   void expect_vertices(std::uint64_t count);
   void expect_faces(std::uint64_t count);
 
   std::size_t vertices() const { return vertices_.size(); }
+  std::size_t faces() const { return faces_.size(); }
   /// Errors: too_large.
   void add_vertex(Vec3 p);
   /// A corner of the next face: index of a vertex, from 0, that may still be to come.
@@ -49,6 +51,7 @@ class PolygonMesh {
 
   MeshLimits limits_;
   std::string what_, unit_;
+  std::int64_t first_vertex_;
   std::vector<Vec3> vertices_;
   std::vector<std::int64_t> corners_;
   std::vector<Face> faces_;

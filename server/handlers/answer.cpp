@@ -87,15 +87,13 @@ std::string timestamp(std::int64_t ms) {
 std::string owner_of(const http::Request&) { return ""; }
 
 std::string query_value(const http::Request& request, const std::string& name) {
-  std::optional<std::string> found;
   for (const auto& [key, value] : request.query) {
     if (key != name) continue;
-    if (found) throw Error(ErrorCode::invalid_parameters, "given twice; give it once", "/" + name);
     if (value.empty())
       throw Error(ErrorCode::invalid_parameters, "it is empty; give a value or leave it out", "/" + name);
-    found = value;
+    return value;
   }
-  return found.value_or("");
+  return "";
 }
 
 Wanted read_wanted(const http::Request& request, const std::string& operation) {

@@ -163,11 +163,15 @@ bool Hub::finish(Connection& connection) {
     return true;
   }
   report(connection);
-  if (connection.close_after || connection.events || draining_) return hang_up(connection), true;
+  if (connection.close_after || connection.events) return hang_up(connection), true;
   reset_exchange(connection);
   connection.state = State::head;
   connection.deadline =
       now_ + milliseconds(connection.in.empty() ? options_.idle_timeout_ms : options_.header_timeout_ms);
+  if (!draining_) return true;
+  connection.readable = true;  // it was promised that it may send another request, and may have by now
+  read_head(connection);
+  if (connection.state == State::head && connection.in.empty()) hang_up(connection);
   return true;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+#include "proto/fields.h"
 #include "server/problem.h"
 
 namespace wellspaced::http {
@@ -40,6 +42,14 @@ void add_once(std::vector<std::string>& methods, const std::string& method) {
   if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
 }
 
+void require_each_once(const Request& request) {
+  for (auto later = request.query.begin(); later != request.query.end(); ++later) {
+    const auto same = [&](const auto& other) { return other.first == later->first; };
+    if (std::any_of(request.query.begin(), later, same))
+      throw Error(ErrorCode::invalid_parameters, "given twice; give it once", pointer_token(later->first));
+  }
+}
+
 std::string join(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -62,6 +72,7 @@ Response Router::operator()(const Request& request) const {
     if (route.method == request.method || (route.method == "GET" && request.method == "HEAD")) {
       request.parameters = bind(patterns_[i], request.segments);
       request.route = route.pattern;
+      require_each_once(request);
       Response response = route.handler(request);
       response.route = route.pattern;
       return response;

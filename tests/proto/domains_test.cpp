@@ -343,6 +343,33 @@ TEST(Sizing, IsRefusedWhereItCannotBe) {
   });
 }
 
+TEST(Sizing, ThatAsksForNoOrCountlessPointsIsRefused) {
+  const auto on = [](const std::string& domain, const std::string& sizing) {
+    return R"({"domain":{"type":")" + domain + R"("},"sizing":)" + sizing + "}";
+  };
+  expect_refusals({
+      {"generate", on("box", R"({"type":"constant","radius":3})"), ErrorCode::infeasible, "/sizing", "0.707"},
+      {"generate", on("sphere", R"({"type":"linear","from":4,"to":5})"), ErrorCode::infeasible, "/sizing",
+       "no two points of this sphere are farther apart than 3.14"},
+      {"generate", on("box", R"({"type":"constant","radius":1e308})"), invalid, "/sizing/radius", "1e100"},
+      {"generate", on("box", R"({"type":"grid","radii":[[1e-200]]})"), invalid, "/sizing/radii/0/0",
+       "1e-100"},
+      {"generate", on("box", R"({"type":"linear","from":1e-12,"to":0.5})"), ErrorCode::too_large, "/sizing",
+       "limit"},
+      {"generate", on("box", R"({"type":"grid","radii":[[1e-9,0.5],[0.5,0.5]]})"), ErrorCode::too_large,
+       "/sizing", "limit"},
+      {"generate", R"({"domain":{"type":"sphere"},"radius":3.2})", ErrorCode::infeasible, "/radius",
+       "no two points of this sphere are farther apart than 3.14"},
+      {"generate", R"({"domain":{"type":"polygon","rings":[[[0,0],[1e-6,0],[0,1e-6]]]},"radius":1})",
+       ErrorCode::infeasible, "/radius", "7.07e-07"},
+  });
+  EXPECT_EQ(
+      run("generate", on("box", R"({"type":"linear","from":1e-60,"to":1e-59})").insert(1, R"("count":40,)"))
+          .points()
+          .size(),
+      40u);
+}
+
 TEST(Domains, WithDetailsSmallerThanTheRadiusAreRefusedUnlessThatIsAllowed) {
   const std::string passage =
       R"("domain":{"type":"polygon","rings":[[[0,0],[1,0],[1,0.45],[1.05,0.45],[1.05,0],[2,0],[2,1],[1.05,1],

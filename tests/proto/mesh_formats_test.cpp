@@ -156,9 +156,13 @@ TEST(ReadObj, RefusesWhatItIsNot) {
   refuse("v 0 0\n", malformed, "line 1 of the OBJ file ends where z should be");
   refuse("\n\nv 0 0 q\n", malformed, "line 3 of the OBJ file has 'q' for z");
   refuse("v 0 0 0\nf 1 1 0\n", malformed, "uses vertex 0; vertices of an OBJ file are counted from 1");
-  refuse("v 0 0 0\nf 1 1 2\n", invalid, "face 0 (line 2 of the OBJ file) uses vertex 1 (counted from 0)",
-         "/faces/0");
-  refuse("v 0 0 0\nf 1 1 -2\n", invalid, "uses vertex -1", "/faces/0");
+  refuse("v 0 0 0\nf 1 1 2\n", invalid,
+         "face 0 (line 2 of the OBJ file) uses vertex 2 (counted from 1), but there are 1", "/faces/0");
+  refuse(
+      "v 0 0 0\nf 1 1 -2\nv 0 0 1\n", invalid,
+      "face 0 (line 2 of the OBJ file) uses vertex -2 (counted back from the last one above it), but there "
+      "are 1 above it",
+      "/faces/0");
   refuse("v 0 0 0\nf 1 1 -9223372036854775808\n", invalid, "uses vertex -922", "/faces/0");
   refuse("v 0 0 0\nf 1 1 9223372036854775808\n", malformed, "not a whole number below 2^63");
   refuse("v 0 0 0\nf 1 1 1/x\n", malformed, "'1/x' for a corner");

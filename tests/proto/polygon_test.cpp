@@ -113,6 +113,8 @@ TEST(PolygonDomain, RefusesGeoJsonWithThePointer) {
       {geojson("Point", R"("coordinates":[0,0])"), "/type", "a Point is no polygon"},
       {geojson("GeometryCollection", R"("geometries":[])"), "/type", "is no polygon"},
       {geojson("Feature", R"("geometry":null)"), "/geometry", "null"},
+      {geojson("Feature", R"("geometry":{"type":"Feature","geometry":{}})"), "/geometry/type",
+       "a Feature is no geometry"},
       {geojson("Feature", R"("geometry":{"type":"LineString","coordinates":[]})"), "/geometry/type",
        "a LineString"},
       {geojson("Feature", R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[1,1]]]})"),

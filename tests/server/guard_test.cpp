@@ -400,6 +400,26 @@ TEST(Guard, StopLetsARequestThatIsArrivingFinish) {
   EXPECT_EQ(response.header("Connection"), "close");
 }
 
+TEST(Guard, StopAnswersWhatCameWhileAResponseWasOnItsWay) {
+  const std::string large(32u << 20, 'x');
+  Served server([&](const Request& request) {
+    Response response = echo(request);
+    if (request.path == "/large") response.body = large;
+    return response;
+  });
+  RawClient client(server.port(), 4096);
+  client.say(get("/large"));
+  EXPECT_TRUE(client.hear("\r\n\r\n"));  // it is on its way, and promises to go on
+  client.say(get("/second"));
+  server.guard().stop();
+  const RawResponse first = client.response(), second = client.response();
+  EXPECT_EQ(first.body.size(), large.size());
+  EXPECT_FALSE(first.has("Connection"));
+  EXPECT_EQ(second.body, "GET /second ");
+  EXPECT_EQ(second.header("Connection"), "close");
+  EXPECT_TRUE(client.closed_by_peer());
+}
+
 TEST(Guard, StopBeforeServeReturnsAtOnce) {
   GuardOptions options;
   options.port = 0;

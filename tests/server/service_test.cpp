@@ -309,6 +309,18 @@ TEST_F(Service, EveryGetOfTheDescriptionAnswersWithADescribedStatusAndType) {
   }
 }
 
+TEST_F(Service, AParameterGivenTwiceIsRefused) {
+  for (const char* target : {"/v1/jobs?limit=1&limit=2", "/v1/domains?cursor=a&limit=1&cursor=a",
+                             "/v1/operations/generate?x=1&x=1"}) {
+    const Answer answer = caller.get(target);
+    EXPECT_EQ(answer.status, 422) << target;
+    EXPECT_THAT(answer.body, ::testing::HasSubstr("given twice; give it once")) << target;
+  }
+  const Answer answer = caller.post(
+      "/v1/domains?allow_self_intersections=true&allow_self_intersections=false", "OFF\n", {}, "model/off");
+  EXPECT_EQ(answer.parsed()["errors"][0]["pointer"], "/allow_self_intersections");
+}
+
 TEST_F(Service, UnknownPathsAndMethodsAreProblems) {
   const Answer nothing = caller.get("/v2/generate");
   EXPECT_EQ(nothing.status, 404);
