@@ -7,6 +7,7 @@
 #include "core/generate/delaunay_refinement.h"
 #include "core/generate/domain_darts.h"
 #include "core/generate/domain_refinement.h"
+#include "core/generate/expected_points.h"
 #include "core/generate/generate.h"
 #include "core/generate/jittered.h"
 #include "core/generate/lattice.h"

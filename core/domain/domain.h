@@ -115,6 +115,11 @@ class Domain {
   virtual double boundary_length() const { return 0; }
   virtual int euler_characteristic() const = 0;  ///< of a triangulation: vertices - edges + faces
   virtual Box box() const = 0;
+  /// No place is farther from the nearest image of another one, but across parts.
+  virtual double farthest() const {
+    const Box b = box();
+    return norm(Vec3{b.size.x / (b.periodic[0] ? 2 : 1), b.size.y / (b.periodic[1] ? 2 : 1), b.size.z});
+  }
   /// Parts between which there is no way, numbered from 0; which one p is in; some place of it.
   virtual std::size_t parts() const { return 1; }
   virtual std::size_t part_of(Vec3) const { return 0; }

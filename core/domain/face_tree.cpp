@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/domain/barycentric.h"
+
 namespace wellspaced {
 namespace {
 
@@ -19,27 +21,25 @@ double along(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 
 }  // namespace
 
-// Which of seven regions (three corners, three edges, the inside) the projection of p is in: Ericson,
-// Real-Time Collision Detection, section 5.1.5.
+// Of a place outside the nearest one is on an edge that it lies beyond.
 std::array<double, 3> nearest_weights(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {d3 / (d3 - d1), d1 / (d1 - d3), 0};
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {d6 / (d6 - d2), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
+  const std::array<Vec3, 3> corners = {a, b, c};
+  const std::array<double, 3> inside = barycentric_weights(corners, p);
+  std::array<double, 3> best = inside;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (inside[k] >= 0) continue;
+    const std::size_t from = (k + 1) % 3, to = (k + 2) % 3;
+    const Vec3 edge = corners[to] - corners[from];
+    const double t = std::clamp(dot(p - corners[from], edge) / norm2(edge), 0.0, 1.0);
+    const double away2 = norm2((1 - t) * (corners[from] - p) + t * (corners[to] - p));
+    if (!(away2 < least)) continue;
+    least = away2;
+    best[k] = 0;
+    best[from] = 1 - t;
+    best[to] = t;
   }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
+  return best;
 }
 
 FaceTree::FaceTree(std::span<const std::array<Vec3, 3>> triangles) {

@@ -32,6 +32,8 @@ class Sizing {
   virtual double most() const = 0;            ///< nor above this
   /// The least L with |r(p) - r(q)| <= L |p - q|, or what is known to be above it; 0 if constant.
   virtual double lipschitz() const = 0;
+  /// Whether r is linear on each flat triangle between places of the domain, of a mesh within a face.
+  virtual bool is_linear() const { return false; }
   /// No r(q) is below this for a q within `distance` of p, but across a jump.
   virtual double least_near(Vec3 p, double distance) const {
     return std::max(least(), at(p) - lipschitz() * distance);
@@ -50,6 +52,7 @@ class ConstantSizing final : public Sizing {
   double least() const override { return radius_; }
   double most() const override { return radius_; }
   double lipschitz() const override { return 0; }
+  bool is_linear() const override { return true; }
 
  private:
   double radius_;
@@ -78,6 +81,7 @@ class LinearSizing final : public Sizing {
   double least() const override { return std::min(options_.from, options_.to); }
   double most() const override { return std::max(options_.from, options_.to); }
   double lipschitz() const override;
+  bool is_linear() const override { return true; }
 
  private:
   double along(Vec3 v) const { return options_.axis == 0 ? v.x : options_.axis == 1 ? v.y : v.z; }

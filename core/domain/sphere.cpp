@@ -54,6 +54,8 @@ double Sphere::arc(double chord) const {
   return 2 * radius_ * portable_atan2(half, std::sqrt((1 - half) * (1 + half)));
 }
 
+double Sphere::farthest() const { return pi * radius_; }
+
 double Sphere::area() const { return 4 * pi * radius_ * radius_; }
 
 Box Sphere::box() const {

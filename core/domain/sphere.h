@@ -27,6 +27,7 @@ class Sphere final : public Domain {
   double area() const override;
   int euler_characteristic() const override { return 2; }
   Box box() const override;
+  double farthest() const override;
   bool is_flat() const override { return false; }
   double distance(Vec3 p, Vec3 q) const override;
   std::optional<std::string> why_outside(Vec3 p) const override;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/domain/barycentric.h"
+
 namespace wellspaced {
 namespace {
 
@@ -26,10 +28,9 @@ StraightWay end_at(const Unfolding& unfolding, std::uint32_t h, const std::array
 
 /// Where p, projected into the plane of a face, lies in a layout of that.
 Vec2 unfold(const TriangleMesh& mesh, std::uint32_t face, const std::array<Vec2, 3>& corners, Vec3 p) {
-  const Vec3 a = mesh.corner(face, 0), ab = mesh.corner(face, 1) - a, ac = mesh.corner(face, 2) - a;
-  const Vec3 normal = cross(ab, ac), ap = p - a;
-  const double v = dot(cross(ap, ac), normal) / norm2(normal), w = dot(cross(ab, ap), normal) / norm2(normal);
-  return corners[0] + v * (corners[1] - corners[0]) + w * (corners[2] - corners[0]);
+  const auto w =
+      barycentric_weights<Vec3>({mesh.corner(face, 0), mesh.corner(face, 1), mesh.corner(face, 2)}, p);
+  return corners[0] + w[1] * (corners[1] - corners[0]) + w[2] * (corners[2] - corners[0]);
 }
 
 /// What came of trying to hit q.

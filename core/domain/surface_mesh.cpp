@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/domain/geodesic_search.h"
+#include "core/domain/mesh_extent.h"
 #include "core/domain/star_region.h"
 #include "core/domain/straight_way.h"
 #include "core/math.h"
@@ -65,6 +66,16 @@ const SmallestFeature& SurfaceMesh::smallest_feature() const {
   std::call_once(looked_for_feature_,
                  [this] { smallest_feature_ = wellspaced::smallest_feature(mesh_, tree_); });
   return smallest_feature_;
+}
+
+double SurfaceMesh::farthest() const {
+  std::call_once(looked_for_farthest_, [this] { farthest_ = mesh_extent(mesh_); });
+  return farthest_;
+}
+
+/// To look `times` the longest shortest way far shows all that there is to see.
+double SurfaceMesh::seen_within(double reach, double times) const {
+  return reach > norm(box_.size) ? std::min(reach, times * farthest()) : reach;
 }
 
 Vec3 SurfaceMesh::place_in(std::size_t part) const {
@@ -203,7 +214,9 @@ std::optional<Vec3> SurfaceMesh::boundary_point_at(Vec3 p) const {
   return at.border ? std::optional(position(at.place)) : std::nullopt;
 }
 
+/// Others cut a cell as far as twice its radius.
 void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neighbors) const {
+  reach = seen_within(reach, 2);
   GeodesicSearch search(unfolding_, locate(base), reach);
   for (const Neighbor& neighbor : neighbors) search.add(locate(base + neighbor.offset, neighbor.hint));
   search.run(GeodesicSearch::Border::ignore, GeodesicSearch::enough_windows, GeodesicSearch::Images::collect);
@@ -226,6 +239,7 @@ void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neigh
 
 bool SurfaceMesh::is_nearer(Vec3 base, const Neighbor& neighbor, double distance) const {
   if (norm(neighbor.offset) >= distance) return false;
+  distance = seen_within(distance, 1.01);
   const MeshPlace from = locate(base), to = locate(base + neighbor.offset, neighbor.hint);
   if (from.face == to.face) return true;
   if (const auto way = aim(unfolding_, from, to); way && way->length < distance) return true;
@@ -237,7 +251,7 @@ bool SurfaceMesh::is_nearer(Vec3 base, const Neighbor& neighbor, double distance
 
 void SurfaceMesh::distances(Vec3 base, double reach, std::span<const Neighbor> neighbors,
                             std::vector<double>& out) const {
-  GeodesicSearch search(unfolding_, locate(base), reach);
+  GeodesicSearch search(unfolding_, locate(base), seen_within(reach, 1.01));
   for (const Neighbor& neighbor : neighbors) search.add(locate(base + neighbor.offset, neighbor.hint));
   search.run();
   out.clear();
@@ -251,6 +265,7 @@ void SurfaceMesh::bisectors(Vec3, Vec2 u, std::span<const Neighbor> neighbors,
 
 bool SurfaceMesh::pieces(Vec3 base, double reach, ChartPieces& out) const {
   const MeshPlace place = locate(base);
+  reach = seen_within(reach, 1.01);
   if (!border_.may_be_near(place, base, reach)) return false;
   GeodesicSearch search(unfolding_, place, reach);
   search.run(GeodesicSearch::Border::look);
@@ -262,7 +277,7 @@ bool SurfaceMesh::pieces(Vec3 base, double reach, ChartPieces& out) const {
 /// Where there are very many, only the nearest: such cells are coarse in any case.
 void SurfaceMesh::seams(Vec3 base, double reach, std::vector<Seam>& out) const {
   if (!has_sharp_vertices_) return;
-  GeodesicSearch search(unfolding_, locate(base), reach);
+  GeodesicSearch search(unfolding_, locate(base), seen_within(reach, 1.01));
   for (const auto& [vertex, at] : search.sharp_vertices(sharp)) {
     const Vec2 way = at - search.apex();
     if (norm2(way) > 0) out.push_back({at, (1 / norm(way)) * way, unfolding_.missing_angle(vertex) / 2});

@@ -64,6 +64,8 @@ class SurfaceMesh : public Domain {
   double boundary_length() const override { return border_.length(); }
   int euler_characteristic() const override { return mesh_.facts().euler_characteristic; }
   Box box() const override { return box_; }
+  /// At most twice as far as it could be. Cost: that of a shortest way to all vertices, the first time.
+  double farthest() const override;
   std::size_t parts() const override { return mesh_.facts().components; }
   std::size_t part_of(Vec3 p) const override { return mesh_.component_of_face()[spot(p).place.face]; }
   Vec3 place_in(std::size_t part) const override;
@@ -106,6 +108,7 @@ class SurfaceMesh : public Domain {
   Spot spot_in(const MeshPlace& place, Vec3 p) const;
   MeshPlace locate(Vec3 p, std::uint32_t face) const;
   bool is_on_border(const MeshPlace& place) const;
+  double seen_within(double reach, double times) const;
 
   TriangleMesh mesh_;
   Box box_;
@@ -115,8 +118,9 @@ class SurfaceMesh : public Domain {
   MeshBorder border_;
   bool has_sharp_vertices_ = false;
   std::vector<double> areas_up_to_;  ///< of each face and all before it
-  mutable std::once_flag looked_for_feature_;
+  mutable std::once_flag looked_for_feature_, looked_for_farthest_;
   mutable SmallestFeature smallest_feature_;
+  mutable double farthest_ = 0;
 };
 
 }  // namespace wellspaced

@@ -13,7 +13,7 @@ namespace wellspaced {
 namespace {
 
 constexpr double largest_coordinate = 1e60;               ///< so that volumes and their squares are finite
-constexpr double flattest = 1e-10;                        ///< height of a face over its longest edge
+constexpr double flattest = 1e-9;                         ///< height of a face over its longest edge
 constexpr double coordinate_rounding = 1e-13;             ///< height of a face over its coordinates
 constexpr std::size_t most_faces = std::size_t{1} << 30;  ///< so that half-edges fit 32 bits
 

@@ -41,7 +41,7 @@ struct MeshFacts {
 /// common edges and vertices only.
 /// Errors of the constructor: invalid_parameters that name the culprits and the way out, at "/vertices/k" for
 /// coordinates that are not finite or above 1e60, and for a vertex with several fans of faces; at "/faces/k"
-/// for an index out of range or twice in a face, a face without area (lower than 1e-10 of its longest edge,
+/// for an index out of range or twice in a face, a face without area (lower than 1e-9 of its longest edge,
 /// or than 1e-13 of its coordinates), a face that an earlier one repeats, an edge of three faces or more, two
 /// neighbors of opposite orientation (nothing is turned over silently), and two faces that cross; at "/faces"
 /// for no face at all or more than 2^30.

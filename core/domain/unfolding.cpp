@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/domain/barycentric.h"
 #include "core/math.h"
 
 namespace wellspaced {
@@ -66,13 +67,9 @@ Vec3 Unfolding::position(const MeshPlace& place) const {
 }
 
 std::array<double, 3> Unfolding::weights(const std::array<Vec2, 3>& corners, Vec2 p) const {
-  std::array<double, 3> w;
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
-    w[k] = std::max(0.0, cross(b - a, p - a));
-    sum += w[k];
-  }
+  std::array<double, 3> w = barycentric_weights(corners, p);
+  for (double& weight : w) weight = std::max(0.0, weight);
+  const double sum = w[0] + w[1] + w[2];
   for (double& weight : w) weight /= sum;
   return w;
 }

@@ -24,6 +24,7 @@ class VertexSizing final : public Sizing {
   double least() const override { return least_; }
   double most() const override { return most_; }
   double lipschitz() const override { return lipschitz_; }
+  bool is_linear() const override { return true; }
 
  private:
   const SurfaceMesh* domain_;

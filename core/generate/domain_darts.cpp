@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/generate/generate.h"
+#include "core/generate/disk_tree.h"
+#include "core/generate/expected_points.h"
 #include "core/generate/hole_filler.h"
 #include "core/generate/row_order.h"
-#include "core/math.h"
 
 namespace wellspaced {
 namespace {
@@ -21,37 +21,13 @@ constexpr std::uint32_t nobody = ~0u;
 constexpr std::size_t between_checks = 512;
 constexpr std::size_t many_triangles = 8;  ///< a point: from here on it is faster to look from the points
 
+/// Radii differ by so much: one grid does not suit them all.
+constexpr double many_sizes = 4;
+
 /// A part of a curve, in lengths along it.
 struct Interval {
   double begin, end;
 };
-
-/// About how many points a scale s gives: inside / s^2 + rim / s.
-struct CountFormula {
-  double inside, rim;
-};
-
-/// n = C integral of r^-2 over the domain, and D of r^-1 over the boundary, which has half a cell inside.
-/// Around each of the places that are looked at, r takes all values between its least one there and as much
-/// above: narrow parts where it is tiny count.
-CountFormula count_formula(const Domain& domain, const DiskRule& rule) {
-  constexpr double on_rim = 0.39;
-  constexpr int draws = 4096;
-  constexpr double ln_10 = 2.302585092994046;
-  double inverse = 1, inverse2 = 1;  // means of 1 / r and of its square at scale 1
-  if (rule.sizing != nullptr) {
-    Rng rng(0x5ca1e);
-    inverse = inverse2 = 0;
-    const double around = std::sqrt(domain.area() / draws / std::numbers::pi);
-    for (int k = 0; k < draws; ++k) {
-      const Vec3 p = domain.random_point(rng);
-      const double r = rule.sizing->at(p), least = rule.sizing->least_near(p, around), most = 2 * r - least;
-      inverse += (most > least ? ln_10 * portable_log10(most / least) / (most - least) : 1 / r) / draws;
-      inverse2 += 1 / (least * most) / draws;
-    }
-  }
-  return {poisson_disk_constant * domain.area() * inverse2, on_rim * domain.boundary_length() * inverse};
-}
 
 /// Corners of triangles, each place once.
 class CornersOf {
@@ -99,6 +75,10 @@ class DomainDarts {
         expected_(expected_points(*domain, rule)),
         points_{domain, {}},
         grid_(points_, rule.least(), static_cast<std::size_t>(expected_)),
+        tree_(points_, radii_),
+        is_graded_(rule.most() > many_sizes * rule.least()),
+        curvature_(domain->is_flat() || !domain->has_exact_cells() ? 0
+                                                                   : std::numbers::pi / domain->farthest()),
         bounded_(domain->boundary_length() > 0) {}
 
   PointSet run() {
@@ -121,17 +101,19 @@ class DomainDarts {
   }
 
   bool has_conflict(Vec3 p, double r) {
+    const auto reach = [&](double earlier) { return rule_.distance(r, earlier); };
+    const auto is_nearer = [&](const Neighbor& q) { return domain_.is_nearer(p, q, reach(radii_[q.id])); };
+    if (is_graded_) return tree_.any(p, reach, is_nearer);
     neighbors_.clear();
     grid_.gather(p, nobody, rule_.reach(r) / rule_.coverage, neighbors_);
-    return std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& q) {
-      return domain_.is_nearer(p, q, rule_.distance(r, radii_[q.id]));
-    });
+    return std::any_of(neighbors_.begin(), neighbors_.end(), is_nearer);
   }
 
   void add(Vec3 p, double r) {
     points_.push_back(p);
     radii_.push_back(r);
     grid_.add(static_cast<std::uint32_t>(points_.size() - 1));
+    if (is_graded_) tree_.add(static_cast<std::uint32_t>(points_.size() - 1));
   }
 
   bool is_inside(Vec3 p) const {
@@ -318,9 +300,15 @@ class DomainDarts {
   }
 
   /// No radius between the corners is below this: no place between them is farther than size / sqrt(3) from
-  /// the next one, along chords, which are at least 2 / pi of the way.
+  /// the next one, along chords, which are at least 2 / pi of the way; and on a sphere none is farther than
+  /// size^2 / 3 radii from the flat triangle.
   double least_between(std::span<const Vec3> corners, double size) const {
     if (rule_.sizing == nullptr) return rule_.scale;
+    if (corners.size() == 3 && rule_.sizing->is_linear()) {
+      const auto radius = [&](Vec3 corner) { return rule_.radius(corner); };
+      const double least = std::min({radius(corners[0]), radius(corners[1]), radius(corners[2])});
+      return std::max(rule_.least(), least - rule_.lipschitz() * curvature_ * size * size / 3);
+    }
     const double within = (domain_.is_flat() ? 1 : std::numbers::pi / 2) * size / std::sqrt(3.0);
     double least = rule_.most();
     for (const Vec3 corner : corners) least = std::min(least, rule_.least_near(corner, within));
@@ -330,7 +318,7 @@ class DomainDarts {
   /// Whether one disk covers all of what lies between the corners.
   bool is_covered(std::span<const Vec3> corners, Vec3 center, double size) {
     const double least = least_between(corners, size);
-    gather_covering(corners, center, least);
+    gather_covering(corners, center, least, size);
     if (neighbors_.empty()) return false;
     std::array<Vec2, 3> ways;
     for (std::size_t k = 0; k < corners.size(); ++k)
@@ -349,9 +337,8 @@ class DomainDarts {
 
   /// Localized neighbors whose disks may cover all corners, for not even straight through space is one too
   /// far.
-  void gather_covering(std::span<const Vec3> corners, Vec3 center, double least) {
-    neighbors_.clear();
-    grid_.gather(center, nobody, rule_.reach(rule_.radius(center)), neighbors_);
+  void gather_covering(std::span<const Vec3> corners, Vec3 center, double least, double size) {
+    gather_reaching(center, least, size);
     double reach = 0;
     const auto is_far = [&](const Neighbor& q) {
       const double radius = coverage_radius(least, q.id), radius2 = radius * radius;
@@ -362,6 +349,20 @@ class DomainDarts {
     };
     neighbors_.erase(std::remove_if(neighbors_.begin(), neighbors_.end(), is_far), neighbors_.end());
     if (!neighbors_.empty()) domain_.localize(center, reach, neighbors_);
+  }
+
+  /// Those whose disks are large enough for a size, and may reach the center.
+  void gather_reaching(Vec3 center, double least, double size) {
+    neighbors_.clear();
+    if (!is_graded_) return grid_.gather(center, nobody, rule_.reach(rule_.radius(center)), neighbors_);
+    const auto reach = [&](double radius) {
+      const double covered = rule_.coverage * rule_.distance(least, radius);
+      return covered < 0.5 * size ? 0 : covered;
+    };
+    tree_.any(center, reach, [&](const Neighbor& q) {
+      neighbors_.push_back(q);
+      return false;
+    });
   }
 
   Neighbor localized(Vec3 center, Vec3 p, double size) {
@@ -378,28 +379,20 @@ class DomainDarts {
   PointSet points_;
   std::vector<double> radii_;
   NeighborGrid grid_;
+  DiskTree tree_;  ///< of the same points, where radii differ much
+  bool is_graded_;
+  double curvature_;  ///< of a sphere
   bool bounded_, are_small_ = false;
   std::vector<Neighbor> neighbors_, single_;
 };
 
 }  // namespace
 
-double expected_points(const Domain& domain, const DiskRule& rule) {
-  const CountFormula n = count_formula(domain, rule);
-  return std::max(16.0, (n.inside / rule.scale + n.rim) / rule.scale);
-}
-
 PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const DiskRule& rule, Rng& rng,
                           Control& control) {
   PointSet points = DomainDarts(domain, rule, rng, control).run();
   sort_into_rows(points, rule.least(), control);
   return points;
-}
-
-double scale_for_count(const Domain& domain, const DiskRule& rule, double count) {
-  const CountFormula n = count_formula(domain, rule);
-  const double a = n.inside / (rule.coverage * rule.coverage), b = n.rim / rule.coverage;
-  return (b + std::sqrt(b * b + 4 * a * count)) / (2 * count);
 }
 
 void require_corners(const Domain& domain, std::uint64_t count) {
@@ -418,12 +411,14 @@ PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, 
   require_corners(*domain, count);
   DiskRule tried = rule;
   const auto wanted = static_cast<double>(count);
-  tried.scale = scale_for_count(*domain, rule, wanted - 0.6 * std::sqrt(wanted));
+  const CountFormula formula(*domain, rule.sizing);
+  tried.scale = formula.scale(wanted - 0.6 * std::sqrt(wanted)) / rule.coverage;
   for (;;) {
     PointSet points = DomainDarts(domain, tried, rng, control).run();
     const auto found = static_cast<double>(points.size());
     if (points.size() > count) {
-      tried.scale *= std::sqrt(found / wanted) * 1.01;
+      const double scale = tried.scale * rule.coverage;
+      tried.scale *= formula.scale(formula.count(scale) * wanted / found) / scale * 1.01;
       continue;
     }
     NeighborGrid grid(points, tried.least(), count);

@@ -38,12 +38,6 @@ PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const Dis
 PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, std::uint64_t count,
                                    const DiskRule& rule, Rng& rng, Control& control);
 
-/// How many points the rule will give, about; at least 16.
-double expected_points(const Domain& domain, const DiskRule& rule);
-
-/// The scale of the rule that gives about so many.
-double scale_for_count(const Domain& domain, const DiskRule& rule, double count);
-
 /// Errors: infeasible at /count for fewer points than the domain has corners.
 void require_corners(const Domain& domain, std::uint64_t count);
 

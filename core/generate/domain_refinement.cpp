@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/generate/domain_darts.h"
+#include "core/generate/expected_points.h"
 #include "core/generate/hole_filler.h"
 #include "core/generate/row_order.h"
 

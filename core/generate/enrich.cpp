@@ -8,6 +8,7 @@
 #include "core/analyze/spacing.h"
 #include "core/domain/torus.h"
 #include "core/generate/domain_darts.h"
+#include "core/generate/expected_points.h"
 #include "core/generate/farthest_point.h"
 #include "core/generate/generate.h"
 #include "core/generate/hole_filler.h"

@@ -130,7 +130,8 @@ double HoleFiller::depth_of(const Hole& hole) {
   const Vec3 at = hole.at;
   const double r = rule_.radius(at);
   neighbors_.clear();
-  const double reach = std::max(1.5, 1.01 * hole.depth / rule_.coverage) * rule_.reach(r);
+  const double reach =
+      std::min(std::max(1.5, 1.01 * hole.depth / rule_.coverage) * rule_.reach(r), 1.01 * domain.farthest());
   grid_.gather(at, nobody, reach, neighbors_);
   domain.localize(at, reach, neighbors_);
   double depth = std::numeric_limits<double>::infinity();

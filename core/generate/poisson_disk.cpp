@@ -2,22 +2,20 @@
 
 #include <string>
 
-#include "core/domain/sphere.h"
 #include "core/generate/dart_throwing.h"
 #include "core/generate/generate.h"
-#include "core/math.h"
 #include "core/text.h"
 
 namespace wellspaced {
 
 void require_radius(const Domain& domain, double radius, const std::string& where) {
-  const auto* const sphere = dynamic_cast<const Sphere*>(&domain);
-  const double most = sphere != nullptr ? pi * sphere->radius() : norm(domain.box().size) / 2;
+  const bool is_bounded = !is_torus(domain) && domain.type() != "sphere";
+  const double most = is_bounded ? norm(domain.box().size) / 2 : domain.farthest();
   if (!(radius > 0))
     throw Error(ErrorCode::invalid_parameters, "the conflict radius must be greater than 0", where);
   if (radius <= most) return;
   const std::string type(domain.type()), limit = short_number(most);
-  if (sphere == nullptr && !is_torus(domain))
+  if (is_bounded)
     throw Error(ErrorCode::infeasible,
                 "a conflict radius above " + limit + " is larger than this " + type +
                     " has room for; choose a smaller one",

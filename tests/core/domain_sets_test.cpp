@@ -10,7 +10,6 @@
 #include "core/analyze/domain_certificate.h"
 #include "core/analyze/domain_spacing.h"
 #include "core/analyze/spacing.h"
-#include "core/domain/grid_sizing.h"
 #include "core/domain/sizing.h"
 #include "core/domain/sphere.h"
 #include "core/generate/domain_darts.h"
@@ -243,61 +242,6 @@ TEST(ThrowDartsOver, RefusesFewerPointsThanCorners) {
   Control control;
   expect_error([&] { throw_darts_over_to_count(std::make_shared<BoxDomain>(), 3, {}, rng, control); },
                ErrorCode::infeasible, "/count", "4 corners");
-}
-
-/// By the rule itself, pair by pair and place by place.
-void expect_kept(const PointSet& points, const DiskRule& rule, int places) {
-  const Domain& domain = *points.domain;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (domain.freedom(points[i]).dimensions == 0 && domain.freedom(points[j]).dimensions == 0) continue;
-      const double d = domain.distance(points[i], points[j]), a = rule.radius(points[i]),
-                   b = rule.radius(points[j]);
-      // Which one came first is not known any more.
-      const double room = rule.criterion == Criterion::bigger ? std::max(a, b) : std::min(a, b);
-      ASSERT_GE(d, room * (1 - 1e-12)) << i << " " << j;
-    }
-  Rng rng(4);
-  for (int k = 0; k < places; ++k) {
-    const Vec3 p = domain.random_point(rng);
-    double least = 1e300;
-    for (std::size_t i = 0; i < points.size() && least > 1; ++i)
-      least = std::min(least,
-                       domain.distance(p, points[i]) / rule.distance(rule.radius(p), rule.radius(points[i])));
-    ASSERT_LE(least, 1) << k;
-  }
-}
-
-constexpr Criterion criteria[] = {Criterion::smaller, Criterion::bigger, Criterion::prior,
-                                  Criterion::current};
-
-TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiVary) {
-  const auto box = std::make_shared<BoxDomain>();
-  const LinearSizing sizing(*box, {0, 0.02, 0.08});
-  for (const Criterion criterion : criteria) {
-    SCOPED_TRACE(static_cast<int>(criterion));
-    Rng rng(3);
-    Control control;
-    const DiskRule rule{1, &sizing, criterion};
-    expect_kept(throw_darts_over(box, rule, rng, control), rule, 20000);
-  }
-}
-
-/// Steeper than any radius allows: neighbors differ by factors.
-TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiAreAnImage) {
-  for (const auto& [name, domain] : domains_of_every_kind()) {
-    RadiusGrid grid{9, 9, std::vector<double>(81)};
-    Rng values(2);
-    for (double& r : grid.radii) r = values.uniform() < 0.5 ? 0.04 : 0.16;
-    const GridSizing sizing(*domain, grid);
-    for (const Criterion criterion : criteria) {
-      SCOPED_TRACE(name + " " + std::to_string(static_cast<int>(criterion)));
-      Rng rng(3);
-      Control control;
-      const DiskRule rule{1, &sizing, criterion};
-      expect_kept(throw_darts_over(domain, rule, rng, control), rule, 3000);
-    }
-  }
 }
 
 TEST(MovingSet, MeasuresWhatBruteForceDoes) {

@@ -211,6 +211,35 @@ TEST(MeshSets, OfFewPointsHaveTheirCoverageRadius) {
     }
 }
 
+/// Ways along a needle are as long as it is, however thin; rounding of areas would hide where points are.
+TEST(MeshSets, OnNeedlesAreWhatTheyAreOnALine) {
+  for (const double height : {1e-3, 1e-6, 1.1e-9}) {
+    SCOPED_TRACE(height);
+    const Vec3 along{0.6, 0.48, 0.64}, across{-0.8, 0.36, 0.48};
+    const auto needle = std::make_shared<const SurfaceMesh>(
+        TriangleMesh({{{}, along, 0.5 * along + height * across}, {{0, 1, 2}}}));
+    Control control;
+    Rng rng(1);
+    const PointSet points = throw_darts_over_to_count(needle, 30, {}, rng, control);
+    EXPECT_EQ(points.size(), 30u);
+    std::vector<double> at;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_FALSE(needle->why_outside(points[i])) << i;
+      at.push_back(dot(points[i], along));
+    }
+    std::sort(at.begin(), at.end());
+    double least = 1, most = 0;
+    for (std::size_t k = 1; k < at.size(); ++k) {
+      least = std::min(least, at[k] - at[k - 1]);
+      most = std::max(most, at[k] - at[k - 1]);
+    }
+    const Spacing spacing = measure_spacing(points, control);
+    EXPECT_NEAR(spacing.r_f, least, 3 * height);
+    EXPECT_NEAR(spacing.r_c, most / 2, 3 * height);
+    EXPECT_LE(spacing.beta, 1);
+  }
+}
+
 TEST(MeshSets, WithoutPointsOnSomePartAreRefused) {
   const auto mesh = std::make_shared<const SurfaceMesh>(TriangleMesh(
       Triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}}, {{0, 1, 2}, {3, 4, 5}}}));

@@ -153,7 +153,7 @@ TEST(Domains, ThatAreMeshesTakeRadiiOfTheirVertices) {
   const Result made = run("generate", "{" + sizing + "}");
   int left = 0, right = 0;
   for (std::size_t i = 0; i < made.points().size(); ++i) ++(made.points()[i].x < 0 ? left : right);
-  EXPECT_GT(right, 2 * left);
+  EXPECT_GT(3 * right, 5 * left);
   const Result back = load_result(store_result(made));
   EXPECT_EQ(back.points().sizing->at({-1, 0, 0}), 0.3);
   EXPECT_EQ(store_result(back), store_result(made));
