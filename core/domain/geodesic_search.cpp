@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/domain/straight_way.h"
 #include "core/math.h"
@@ -133,6 +134,7 @@ void GeodesicSearch::run_nearest_first() {
   windows_.clear();
   views_.clear();
   images_.clear();
+  for (Target& target : targets_) target.image = none;
   sharp_vertices_.clear();
   vertex_distance_.assign(mesh_->vertices().size(), unreached);
   start();
@@ -231,9 +233,10 @@ void GeodesicSearch::enter(const Window& w, std::uint32_t h, const std::array<Ve
 /// Two windows that meet at a target both see it.
 void GeodesicSearch::collect(std::uint32_t target, Vec2 at) {
   constexpr double same = 1e-9;
-  for (const Image& image : images_)
-    if (image.target == target && size1(image.vector - at) <= same * size1(at)) return;
-  images_.push_back({target, at});
+  for (std::uint32_t k = targets_[target].image; k != none; k = images_[k].earlier)
+    if (size1(images_[k].vector - at) <= same * size1(at)) return;
+  images_.push_back(
+      {target, at, std::exchange(targets_[target].image, static_cast<std::uint32_t>(images_.size()))});
 }
 
 void GeodesicSearch::improve(Target& target, double distance, Vec2 vector) {

@@ -35,6 +35,7 @@ class GeodesicSearch {
   static constexpr std::size_t enough_windows = 500000;
   static constexpr std::size_t most_aimed = 64;  ///< with more targets it looks everywhere
   static constexpr double unreached = std::numeric_limits<double>::infinity();
+  static constexpr std::uint32_t none = ~0u;
 
   struct Target {
     MeshPlace place;
@@ -42,13 +43,15 @@ class GeodesicSearch {
     Vec2 vector;             ///< in the base's chart
     std::uint32_t next = 0;  ///< of the same face
     Vec3 position{};
-    double bound = unreached;  ///< length of some way, maybe not a straight one
+    double bound = unreached;    ///< length of some way, maybe not a straight one
+    std::uint32_t image = none;  ///< the latest one
   };
   enum class Border { ignore, look };
   /// A target as it is seen from the base, straight ahead over unfolded faces.
   struct Image {
     std::uint32_t target = 0;
     Vec2 vector;
+    std::uint32_t earlier = none;  ///< of the same target
   };
   enum class Images { ignore, collect };
   /// A vertex as it is seen from the base, straight ahead over unfolded faces.
@@ -60,7 +63,7 @@ class GeodesicSearch {
   /// Requires: the unfolding outlives it.
   GeodesicSearch(const Unfolding& unfolding, const MeshPlace& base, double reach);
 
-  void add(const MeshPlace& place) { targets_.push_back({place, unreached, {}, none, {}, unreached}); }
+  void add(const MeshPlace& place) { targets_.push_back({place, unreached, {}, none, {}, unreached, none}); }
   /// With Border::look and Images::collect it goes on to the end of reach even if all targets were found.
   /// `enough`: see above.
   void run(Border border = Border::ignore, std::size_t enough = enough_windows,
@@ -80,8 +83,6 @@ class GeodesicSearch {
   Vec2 apex() const { return apex_; }
 
  private:
-  static constexpr std::uint32_t none = ~0u;
-
   /// How a way came to the place where it bent last: to the base itself, or over a vertex.
   struct Bend {
     double before = 0;            ///< length of the way to here

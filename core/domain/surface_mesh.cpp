@@ -222,7 +222,8 @@ void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neigh
   search.run(GeodesicSearch::Border::ignore, GeodesicSearch::enough_windows, GeodesicSearch::Images::collect);
   std::vector<GeodesicSearch::Image> images = search.images();
   std::vector<double> nearest(neighbors.size(), GeodesicSearch::unreached);
-  for (const auto& [target, vector] : images) nearest[target] = std::min(nearest[target], norm(vector));
+  for (const auto& [target, vector, earlier] : images)
+    nearest[target] = std::min(nearest[target], norm(vector));
   for (std::uint32_t k = 0; k < neighbors.size(); ++k) {
     const GeodesicSearch::Target& target = search.targets()[k];
     if (target.distance <= reach && target.distance < nearest[k]) images.push_back({k, target.vector});
@@ -232,7 +233,7 @@ void SurfaceMesh::localize(Vec3 base, double reach, std::vector<Neighbor>& neigh
   });
   std::vector<Neighbor> localized;
   localized.reserve(images.size());
-  for (const auto& [target, vector] : images)
+  for (const auto& [target, vector, earlier] : images)
     localized.push_back({{vector.x, vector.y, 0}, neighbors[target].id, neighbors[target].hint});
   neighbors.swap(localized);
 }

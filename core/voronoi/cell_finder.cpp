@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t crowd = 256;  ///< a neighborhood of so many may take long
 
+/// Ties by id keep the order one for all.
+bool is_nearer(const Neighbor& a, const Neighbor& b) {
+  const double a2 = norm2(a.offset), b2 = norm2(b.offset);
+  return a2 != b2 ? a2 < b2 : a.id < b.id;
+}
+
 /// Distance of a convex polygon's nearest place; infinite if it is empty.
 double nearest_to_origin(std::span<const Cell::Corner> polygon) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -36,38 +42,46 @@ CellFinder::CellFinder(const PointSet& points, const NeighborGrid& grid, double 
       settler_(points, grid),
       is_flat_(points.domain->is_flat()),
       has_boundary_(points.domain->boundary_length() > 0) {
-  // No cell has an outradius above the diagonal of the domain's box, so nothing farther than this can matter.
-  farthest_reach_ = 2 * norm(points.domain->box().size);
+  // No cell has a larger outradius, so nothing farther than twice that can matter.
+  farthest_reach_ = 2.01 * points.domain->farthest();
 }
 
 void CellFinder::load(std::uint32_t i, double reach) {
   self_ = i;
   base_ = (*points_)[i];
-  gather(reach);
+  most_ = crowd;
+  gather(std::min(reach, farthest_reach_));
 }
 
 void CellFinder::gather(double reach) {
   reach_ = reach;
   neighbors_.clear();
   grid_->gather(base_, self_, reach, neighbors_);
-  points_->domain->localize(base_, reach, neighbors_);
+  if (neighbors_.size() > most_) leave_the_farthest();
+  points_->domain->localize(base_, reach_, neighbors_);
   has_own_images_ =
       std::any_of(neighbors_.begin(), neighbors_.end(), [this](const Neighbor& n) { return n.id == self_; });
   sorted_ = false;
   star_use_ = StarUse::not_loaded;
 }
 
+/// Where so many are in reach, most of them are too far away to matter; else the next look keeps more. On the
+/// domain nothing is nearer than through space.
+void CellFinder::leave_the_farthest() {
+  control_->check();
+  const auto last = neighbors_.begin() + static_cast<std::ptrdiff_t>(most_);
+  std::nth_element(neighbors_.begin(), last, neighbors_.end(), is_nearer);
+  reach_ = norm(last->offset);
+  neighbors_.erase(last, neighbors_.end());
+  most_ *= 4;
+}
+
 void CellFinder::sort_neighbors() {
-  // Near ones first: they cut most, and the rest is then rejected in O(1). Ties by id keep the order one for
-  // all.
-  const auto nearer = [](const Neighbor& a, const Neighbor& b) {
-    const double a2 = norm2(a.offset), b2 = norm2(b.offset);
-    return a2 != b2 ? a2 < b2 : a.id < b.id;
-  };
+  // Near ones first: they cut most, and the rest is then rejected in O(1).
   if (neighbors_.size() < crowd)
-    std::sort(neighbors_.begin(), neighbors_.end(), nearer);
+    std::sort(neighbors_.begin(), neighbors_.end(), is_nearer);
   else
-    sort(neighbors_.begin(), neighbors_.end(), *control_, nearer);
+    sort(neighbors_.begin(), neighbors_.end(), *control_, is_nearer);
   sorted_ = true;
 }
 

@@ -66,6 +66,7 @@ class CellFinder {
   enum class StarUse { not_loaded, loaded, unsuitable };
 
   void gather(double reach);
+  void leave_the_farthest();
   void sort_neighbors();
   void cut(Vec2 u);
   void find_cell(Vec2 u);
@@ -83,6 +84,7 @@ class CellFinder {
   const NeighborGrid* grid_;
   const Control* control_;
   double first_reach_, reach_ = 0, farthest_reach_;
+  std::size_t most_ = 0;  ///< neighbors
   std::uint32_t self_ = 0;
   Vec3 base_;
   std::vector<Neighbor> neighbors_;

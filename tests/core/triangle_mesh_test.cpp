@@ -111,9 +111,9 @@ TEST(TriangleMesh, RefusesFacesThatAreNoTriangles) {
   mesh = tetrahedron();
   mesh.vertices[3] = mesh.vertices[2];
   expect_refusal(mesh, "/faces/2", "face 2 (vertices 0, 2 and 3) has no area");
-  mesh = {{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-11, 0}}, {{0, 1, 2}}};
+  mesh = {{{0, 0, 0}, {1, 0, 0}, {0.5, 9e-10, 0}}, {{0, 1, 2}}};
   expect_refusal(mesh, "/faces/0", "no area");
-  mesh.vertices[2].y = 1e-9;
+  mesh.vertices[2].y = 1.1e-9;
   EXPECT_NO_THROW(TriangleMesh{mesh});
   for (Vec3& p : mesh.vertices) p = p + Vec3{1e5, 0, 0};
   expect_refusal(mesh, "/faces/0", "no area, to rounding");
