@@ -43,9 +43,8 @@ void require_in_every_part(const PointSet& points) {
   const Vec3 at = domain.place_in(static_cast<std::size_t>(bare));
   throw Error(
       ErrorCode::degenerate_input,
-      "the part of the domain with (" + short_number(at.x) + ", " + short_number(at.y) + ", " +
-          short_number(at.z) +
-          ") has no point, so the coverage radius r_c is infinite; add one there, or give these points a "
+      "the part of the domain with " + short_text(at) +
+          " has no point, so the coverage radius r_c is infinite; add one there, or give these points a "
           "domain without that part");
 }
 

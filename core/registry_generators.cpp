@@ -66,6 +66,7 @@ Parameter criterion() {
 
 /// For two points of the radius that is given, or of the least one that the sizing function wants.
 void require_room(const Setting& setting, const Arguments& a) {
+  require_corners_apart(setting.domain);
   if (argument(a, "count")) return;
   if (setting.sizing != nullptr) return require_radius(*setting.domain, setting.sizing->least(), "/sizing");
   if (const auto r = argument(a, "radius")) require_radius(*setting.domain, *r);

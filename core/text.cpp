@@ -9,4 +9,8 @@ std::string short_number(double x) {
   return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr};
 }
 
+std::string short_text(Vec3 p) {
+  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
+}
+
 }  // namespace wellspaced

@@ -194,7 +194,7 @@ std::optional<BoundarySpot> Polygon::boundary_spot(Vec3 p) const {
 }
 
 std::optional<Vec3> Polygon::boundary_point_at(Vec3 p) const {
-  const double tolerance = 1e-12 * norm(box().size) + 4 * parts_->rings.ulp();
+  const double tolerance = 1e-12 * norm(box().size) + 64 * parts_->rings.ulp();
   const EdgeGrid& grid = parts_->locator.grid();
   const Vec2 at = planar(p), local = at - parts_->rings.low();
   std::optional<Vec3> found;

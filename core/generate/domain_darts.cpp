@@ -8,11 +8,13 @@
 #include <span>
 #include <string>
 
+#include "core/domain/near_pair.h"
 #include "core/error.h"
 #include "core/generate/disk_tree.h"
 #include "core/generate/expected_points.h"
 #include "core/generate/hole_filler.h"
 #include "core/generate/row_order.h"
+#include "core/text.h"
 
 namespace wellspaced {
 namespace {
@@ -28,6 +30,14 @@ constexpr double many_sizes = 4;
 struct Interval {
   double begin, end;
 };
+
+std::vector<Vec3> corners_of(const Domain& domain) {
+  std::vector<Vec3> corners;
+  const std::vector<BoundaryCurve> curves = domain.boundary();
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    if (!curves[c].closed) corners.push_back(domain.boundary_point(c, 0));
+  return corners;
+}
 
 /// Corners of triangles, each place once.
 class CornersOf {
@@ -124,8 +134,7 @@ class DomainDarts {
 
   void fill_boundary() {
     const std::vector<BoundaryCurve> curves = domain_.boundary();
-    for (std::size_t c = 0; c < curves.size(); ++c)
-      if (!curves[c].closed) take_corner(domain_.boundary_point(c, 0));
+    for (const Vec3 corner : corners_of(domain_)) take_corner(corner);
     for (std::size_t c = 0; c < curves.size(); ++c) {
       if (c % between_checks == 0) control_.check();
       fill_curve(c, curves[c]);
@@ -396,14 +405,26 @@ PointSet throw_darts_over(const std::shared_ptr<const Domain>& domain, const Dis
 }
 
 void require_corners(const Domain& domain, std::uint64_t count) {
-  const std::vector<BoundaryCurve> curves = domain.boundary();
-  const auto corners = static_cast<std::size_t>(
-      std::count_if(curves.begin(), curves.end(), [](const BoundaryCurve& c) { return !c.closed; }));
+  const std::size_t corners = corners_of(domain).size();
   if (count >= corners) return;
   throw Error(ErrorCode::infeasible,
               "the domain has " + std::to_string(corners) +
                   " corners, each of which is a point; ask for as many points or more",
               "/count");
+}
+
+void require_corners_apart(const std::shared_ptr<const Domain>& domain) {
+  PointSet points{domain, {}};
+  for (const Vec3 corner : corners_of(*domain)) points.push_back(corner);
+  if (points.size() < 2) return;
+  const double limit = nearest_distance(*domain);
+  const auto pair = find_near_pair(points, limit, Control());
+  if (!pair) return;
+  throw Error(ErrorCode::infeasible,
+              "each corner is a point, and two corners near " + short_text(points[pair->later]) + " are " +
+                  short_number(pair->distance) + " apart, less than the " + short_number(limit) +
+                  " that points must be in this domain; merge them",
+              "/domain");
 }
 
 PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, std::uint64_t count,

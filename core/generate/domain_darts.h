@@ -41,4 +41,7 @@ PointSet throw_darts_over_to_count(const std::shared_ptr<const Domain>& domain, 
 /// Errors: infeasible at /count for fewer points than the domain has corners.
 void require_corners(const Domain& domain, std::uint64_t count);
 
+/// That corners are as far apart as points must be. Errors: infeasible at /domain, naming two that are not.
+void require_corners_apart(const std::shared_ptr<const Domain>& domain);
+
 }  // namespace wellspaced

@@ -140,14 +140,20 @@ double HoleFiller::depth_of(const Hole& hole) {
   return depth;
 }
 
+/// One that has become a little shallower may have done so by rounding only.
 bool HoleFiller::take_deepest(double deeper_than, Hole& deepest) {
+  constexpr double little = 1e-2;
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), ComesLater());
     const Hole hole = heap_.back();
     heap_.pop_back();
     const double depth = depth_of(hole);
-    if (depth < hole.depth * (1 - 1e-9) || depth <= deeper_than)
-      continue;  // its new corners were found since
+    if (depth <= deeper_than || depth < hole.depth * (1 - little)) continue;  // new corners were found since
+    if (depth < hole.depth * (1 - 1e-9)) {
+      heap_.push_back({depth, hole.at});
+      std::push_heap(heap_.begin(), heap_.end(), ComesLater());
+      continue;
+    }
     deepest = hole;
     return true;
   }

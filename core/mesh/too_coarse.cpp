@@ -15,20 +15,16 @@
 namespace wellspaced {
 namespace {
 
-std::string text_of(Vec3 p) {
-  return "(" + short_number(p.x) + ", " + short_number(p.y) + ", " + short_number(p.z) + ")";
-}
-
 /// A place of the border near which there should be a point.
 std::optional<std::string> bare_border(const PointSet& points) {
   for (const BorderChain& chain : border_chains(points)) {
     for (const BorderChain::Link& link : chain.links)
       if (link.point == BorderChain::none)
-        return "the corner " + text_of(points.domain->boundary_point(chain.curve, link.along)) +
+        return "the corner " + short_text(points.domain->boundary_point(chain.curve, link.along)) +
                " of the domain's border is no point";
     if (chain.links.size() < 3 && chain.closed)
-      return "the closed border through " + text_of(points.domain->boundary_point(chain.curve, 0)) + " has " +
-             std::to_string(chain.links.size()) + " points on it, of at least 3";
+      return "the closed border through " + short_text(points.domain->boundary_point(chain.curve, 0)) +
+             " has " + std::to_string(chain.links.size()) + " points on it, of at least 3";
   }
   return {};
 }

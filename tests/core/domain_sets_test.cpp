@@ -10,6 +10,7 @@
 #include "core/analyze/domain_certificate.h"
 #include "core/analyze/domain_spacing.h"
 #include "core/analyze/spacing.h"
+#include "core/domain/polygon.h"
 #include "core/domain/sizing.h"
 #include "core/domain/sphere.h"
 #include "core/generate/domain_darts.h"
@@ -235,6 +236,34 @@ TEST(ThrowDartsOver, HasExactlyTheCountThatWasAskedForAndStaysMaximal) {
         EXPECT_LE(measure_ratio(points, plain).beta(), 1 + 1e-8);
       }
     }
+}
+
+/// There coordinates are rounded far more coarsely than the polygon's size suggests.
+TEST(ThrowDartsOver, IsMaximalFarFromTheOrigin) {
+  for (const double far : {1e4, 1e6, 1e9}) {
+    const double side = std::max(1e-3, 1e-9 * far), noise = 1e-15 * far / side;
+    SCOPED_TRACE(far);
+    const auto ring = [&](std::vector<Vec2> corners) {
+      for (Vec2& c : corners) c = Vec2{far, -0.7 * far} + side * c;
+      return corners;
+    };
+    const auto polygon = std::make_shared<const Polygon>(std::vector<std::vector<Vec2>>{
+        ring({{0, 0.1}, {0.9, 0}, {1, 0.8}, {0.2, 1}}), ring({{0.4, 0.4}, {0.4, 0.6}, {0.7, 0.5}})});
+    for (const double coverage : {1.0, 1.4}) {
+      Rng rng(1);
+      Control control;
+      DiskRule rule;
+      rule.coverage = coverage;
+      const PointSet points = throw_darts_over_to_count(polygon, 200, rule, rng, control);
+      const double r_f = brute_r_f_free(points);
+      EXPECT_LE(brute_r_c_on(points, 1e-6 * r_f), coverage * r_f * (1 + 3e-6 + 1000 * noise));
+    }
+    Control control;
+    const PointSet refined = refine_domain_to_count(polygon, 200, control);
+    const double r_f = brute_r_f_free(refined);
+    EXPECT_EQ(refined.size(), 200u);
+    EXPECT_LE(brute_r_c_on(refined, 1e-6 * r_f), r_f * (1 + 3e-6 + 1000 * noise));
+  }
 }
 
 TEST(ThrowDartsOver, RefusesFewerPointsThanCorners) {

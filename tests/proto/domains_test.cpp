@@ -389,6 +389,17 @@ TEST(Domains, WithDetailsSmallerThanTheRadiusAreRefusedUnlessThatIsAllowed) {
   EXPECT_EQ(run("generate", R"({"count":40,)" + passage + "}").points().size(), 40u);
 }
 
+TEST(Domains, WithCornersThatCoincideToRoundingAreRefusedWhereEachIsAPoint) {
+  const std::string polygon =
+      R"("domain":{"type":"polygon","rings":[[[0,0],[1,0],[1,1],[0.999999999999,1],[0,1]]]})";
+  for (const char* method : {"poisson-disk", "two-radii", "delaunay-refinement"})
+    for (const char* size : {R"("count":50)", R"("radius":0.1)"})
+      expect_refusals(
+          {{"generate", R"({"method":")" + std::string(method) + "\"," + size + "," + polygon + "}",
+            ErrorCode::infeasible, "/domain", "two corners near (1, 1, 0) are 1e-12 apart"}});
+  EXPECT_EQ(run("generate", R"({"method":"white-noise","count":50,)" + polygon + "}").points().size(), 50u);
+}
+
 TEST(Domains, OfEveryKindHaveTheirHolesFilled) {
   for (
       const std::string domain :
