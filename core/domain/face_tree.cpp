@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/domain/barycentric.h"
-
 namespace wellspaced {
 namespace {
 
@@ -21,11 +19,16 @@ double along(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 
 }  // namespace
 
-// Of a place outside the nearest one is on an edge that it lies beyond.
-std::array<double, 3> nearest_weights(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
+// Of a place outside the nearest one is on an edge that it lies beyond; of any place, where there is no area.
+std::array<double, 3> FaceTree::Triangle::nearest_weights(Vec3 p) const {
+  const std::array<double, 3> inside = weights(p);
   const std::array<Vec3, 3> corners = {a, b, c};
-  const std::array<double, 3> inside = barycentric_weights(corners, p);
-  std::array<double, 3> best = inside;
+  constexpr double nearly_all = 1 - 1e-9;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (inside[k] > nearly_all && corners[k] == p)
+      return {k == 0 ? 1.0 : 0, k == 1 ? 1.0 : 0, k == 2 ? 1.0 : 0};
+  if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0) return inside;
+  std::array<double, 3> best{};
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
     if (inside[k] >= 0) continue;
@@ -42,16 +45,22 @@ std::array<double, 3> nearest_weights(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
   return best;
 }
 
+std::array<double, 3> FaceTree::nearest_in(std::uint32_t face, Vec3 p) const {
+  return triangles_[at_[face]].nearest_weights(p);
+}
+
 FaceTree::FaceTree(std::span<const std::array<Vec3, 3>> triangles) {
   triangles_.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
     const Vec3 normal = cross(b - a, c - a);
     const double length = norm(normal);
     triangles_.push_back({a, b, c, length > 0 ? (1 / length) * normal : Vec3{},
-                          static_cast<std::uint32_t>(triangles_.size())});
+                          static_cast<std::uint32_t>(triangles_.size()), Barycentric<Vec3>({a, b, c})});
   }
   nodes_.emplace_back();
   build(0, 0, triangles_.size());
+  at_.resize(triangles_.size());
+  for (std::uint32_t k = 0; k < triangles_.size(); ++k) at_[triangles_[k].face] = k;
 }
 
 FaceTree::Bounds FaceTree::bounds_of(const Triangle& t) {
@@ -102,7 +111,7 @@ double FaceTree::distance2(const Bounds& box, Vec3 p) {
 void FaceTree::improve(std::uint32_t first, std::uint32_t count, Vec3 p, Nearest& best) const {
   for (std::uint32_t k = first; k < first + count; ++k) {
     const Triangle& t = triangles_[k];
-    const auto w = nearest_weights(t.a, t.b, t.c, p);
+    const auto w = t.nearest_weights(p);
     // From differences: a point on the mesh is then at no distance, wherever the origin is.
     const double d2 = norm2(w[0] * (t.a - p) + w[1] * (t.b - p) + w[2] * (t.c - p));
     if (d2 < best.distance2) best = {t.face, w, d2};

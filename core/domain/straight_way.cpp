@@ -28,8 +28,7 @@ StraightWay end_at(const Unfolding& unfolding, std::uint32_t h, const std::array
 
 /// Where p, projected into the plane of a face, lies in a layout of that.
 Vec2 unfold(const TriangleMesh& mesh, std::uint32_t face, const std::array<Vec2, 3>& corners, Vec3 p) {
-  const auto w =
-      barycentric_weights<Vec3>({mesh.corner(face, 0), mesh.corner(face, 1), mesh.corner(face, 2)}, p);
+  const auto w = Barycentric<Vec3>({mesh.corner(face, 0), mesh.corner(face, 1), mesh.corner(face, 2)})(p);
   return corners[0] + w[1] * (corners[1] - corners[0]) + w[2] * (corners[2] - corners[0]);
 }
 

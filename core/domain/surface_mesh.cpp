@@ -102,9 +102,7 @@ SurfaceMesh::Spot SurfaceMesh::spot_in(const MeshPlace& place, Vec3 p) const {
 
 MeshPlace SurfaceMesh::locate(Vec3 p, std::uint32_t face) const {
   if (face == Neighbor::no_hint) return locate(p);
-  const auto weights =
-      nearest_weights(mesh_.corner(face, 0), mesh_.corner(face, 1), mesh_.corner(face, 2), p);
-  return spot_in({face, weights}, p).place;
+  return spot_in({face, tree_.nearest_in(face, p)}, p).place;
 }
 
 Vec3 SurfaceMesh::nearest(Vec3 p) const { return position(locate(p)); }

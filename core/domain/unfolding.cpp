@@ -67,7 +67,7 @@ Vec3 Unfolding::position(const MeshPlace& place) const {
 }
 
 std::array<double, 3> Unfolding::weights(const std::array<Vec2, 3>& corners, Vec2 p) const {
-  std::array<double, 3> w = barycentric_weights(corners, p);
+  std::array<double, 3> w = Barycentric<Vec2>(corners)(p);
   for (double& weight : w) weight = std::max(0.0, weight);
   const double sum = w[0] + w[1] + w[2];
   for (double& weight : w) weight /= sum;

@@ -137,10 +137,8 @@ TEST(SurfaceMesh, FindsTheNearestFaceOfAll) {
   for (int k = 0; k < 300; ++k) {
     const Vec3 p{1.4 * rng.uniform() - 0.2, 1.4 * rng.uniform() - 0.2, rng.uniform() - 0.5};
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b, c] : mesh.triangles()) {
-      const auto w = nearest_weights(a, b, c, p);
-      nearest = std::min(nearest, norm(w[0] * a + w[1] * b + w[2] * c - p));
-    }
+    for (const DomainTriangle& triangle : mesh.triangles())
+      nearest = std::min(nearest, std::sqrt(FaceTree({&triangle, 1}).nearest(p).distance2));
     EXPECT_NEAR(norm(mesh.nearest(p) - p), nearest, 1e-14);
   }
 }
