@@ -95,8 +95,8 @@ std::optional<std::uint64_t> Fields::whole(const std::string& name) {
     const double x = value->get<double>();
     if (x >= 0 && x < 0x1p64 && x == std::floor(x)) return static_cast<std::uint64_t>(x);
   }
-  throw Error(ErrorCode::invalid_parameters, "expected a whole number from 0 on, found " + describe(*value),
-              pointer_to(name));
+  throw Error(ErrorCode::invalid_parameters,
+              "expected a whole number from 0 to 2^64 - 1, found " + describe(*value), pointer_to(name));
 }
 
 void Fields::refuse_unknown() const {

@@ -62,7 +62,9 @@ void read_numbers(const json& array, const std::string& where, std::vector<doubl
 }
 
 RadiusGrid read_rows(const json& rows, const std::string& where) {
-  if (!rows.is_array() || rows.empty())
+  if (rows.is_array() && rows.empty())
+    throw Error(ErrorCode::invalid_parameters, "there are no rows; give an array of one at least", where);
+  if (!rows.is_array())
     throw Error(ErrorCode::invalid_parameters,
                 "must be an array of rows, the lowest y first, not " + describe(rows), where);
   RadiusGrid grid;
@@ -129,6 +131,9 @@ RadiusGrid radii_of_image(const GrayImage& image, double black, double white) {
 
 std::shared_ptr<const Sizing> image(Fields& fields, const Domain& domain) {
   fields.require("png", "a PNG file in base64");
+  if (fields.text("png") == "")
+    throw Error(ErrorCode::invalid_parameters, "it is empty; give a PNG file in base64",
+                fields.pointer_to("png"));
   ImageSizing::Source source{*fields.text("png"), radius_field(fields, "black"),
                              radius_field(fields, "white")};
   fields.refuse_unknown();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/voronoi/corner_settler.h"
 #include "core/voronoi/far_places.h"
@@ -20,24 +19,6 @@ bool are_few(const PointSet& points) {
   return static_cast<double>(points.size() * points.domain->triangles().size()) <= most_work;
 }
 
-/// The deepest places, each the deepest around it.
-std::vector<std::size_t> summits(const FarPlaces& far, const std::vector<double>& depths) {
-  constexpr std::size_t most = 24;
-  std::vector<std::size_t> order(depths.size()), chosen;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return depths[a] != depths[b] ? depths[a] > depths[b] : a < b;
-  });
-  for (const std::size_t k : order) {
-    const auto is_near = [&](std::size_t c) {
-      return norm(far.places()[c] - far.places()[k]) < 1.5 * far.gap();
-    };
-    if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(k);
-    if (chosen.size() == most) break;
-  }
-  return chosen;
-}
-
 }  // namespace
 
 void see_far_places(const PointSet& points, const Control& control, std::vector<PointLook>& looks) {
@@ -47,13 +28,13 @@ void see_far_places(const PointSet& points, const Control& control, std::vector<
   std::vector<double> depths(far.places().size(), infinity);
   for (std::size_t i = 0; i < points.size(); ++i) {
     control.check();
-    far.see_from(points[i], [&](std::size_t k, double d) { depths[k] = std::min(depths[k], d); });
+    far.see_from(points[i], infinity, [&](std::size_t k, double d) { depths[k] = std::min(depths[k], d); });
   }
   const NeighborGrid grid(points, hexagonal_spacing(domain, points.size()));
   CornerSettler settler(points, grid);
   std::vector<Neighbor> all(points.size());
   std::vector<double> ways;
-  for (const std::size_t k : summits(far, depths)) {
+  for (const std::size_t k : far.summits(depths)) {
     control.check();
     const Vec3 place = far.places()[k];
     const bool on_boundary = domain.freedom(place).dimensions < 2;

@@ -23,7 +23,7 @@ PointLook look_at_point(const MovingSet& set, std::size_t i, CellFinder& cells, 
   PointLook local;
   const double unit = set.unit(i);
   local.outradius = cells.outradius();
-  local.area = cells.moments().area / (unit * unit);
+  local.area = cells.area() / (unit * unit);
   for (const Neighbor& neighbor : cells.neighbors()) {
     if (neighbor.id == i) continue;
     const double distance = norm(set.domain().way_to(set[i], neighbor));

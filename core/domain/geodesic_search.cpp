@@ -16,8 +16,9 @@ constexpr double grazing =
     1e-12;  ///< of a ray's length: passing a vertex or a target so closely is hitting it
 constexpr double no_angle = 1e-13;  ///< radians
 constexpr double many_faces = 150;  ///< within reach: to look everywhere takes longer than to aim
-constexpr double many_times = 4;    ///< the area of the mesh, within reach
-constexpr double proof = 1e-10;     ///< relative: how much shorter a way would have to be to be worth a look
+constexpr double windows_a_face = 4;
+constexpr double many_times = 4;  ///< the area of the mesh, within reach
+constexpr double proof = 1e-10;   ///< relative: how much shorter a way would have to be to be worth a look
 constexpr double improvement = 1e-14;  ///< relative, of a way that only rounding makes shorter
 
 double size1(Vec2 v) { return std::fabs(v.x) + std::fabs(v.y); }
@@ -71,8 +72,10 @@ void GeodesicSearch::run(Border border, std::size_t enough, Images images) {
   if (border == Border::ignore && !collects_images_ && targets_.size() <= most_aimed &&
       pi * reach_ * reach_ > many_faces * face)
     aim_at_targets();
-  const bool winds_around = pi * limit_ * limit_ > many_times * mesh_->facts().area;
-  if (winds_around && border == Border::ignore && !collects_images_) enough = 0;
+  const double times = pi * limit_ * limit_ / mesh_->facts().area;
+  const bool winds_around = times > many_times && border == Border::ignore && !collects_images_;
+  const double windows = windows_a_face * times * static_cast<double>(mesh_->faces().size());
+  if (winds_around || windows > static_cast<double>(enough)) enough = 0;
   if (!run_in_any_order(enough)) run_nearest_first();
 }
 

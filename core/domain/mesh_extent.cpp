@@ -14,28 +14,24 @@ namespace {
 
 class EdgeWays {
  public:
-  explicit EdgeWays(const TriangleMesh& mesh)
-      : mesh_(mesh), distance_(mesh.vertices().size()), before_(mesh.vertices().size()) {}
+  explicit EdgeWays(const TriangleMesh& mesh) : mesh_(mesh), distance_(mesh.vertices().size()) {}
 
-  /// From a vertex to all of its component; returns the farthest one.
-  std::uint32_t sweep(std::uint32_t from) {
+  /// From a vertex to all of its component; returns the distance of the last one.
+  double sweep_from(std::uint32_t from) {
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
     distance_[from] = 0;
-    before_[from] = from;
     queue.push({0, from});
-    std::uint32_t last = from;
     while (!queue.empty()) {
       const auto [distance, vertex] = queue.top();
       queue.pop();
       if (distance > distance_[vertex]) continue;
-      last = vertex;
+      last_ = vertex;
       const auto go = [&, d = distance, v = vertex](std::uint32_t next) {
         const double length = d + norm(mesh_.vertices()[next] - mesh_.vertices()[v]);
         if (!(length < distance_[next])) return;
         distance_[next] = length;
-        before_[next] = v;
         queue.push({length, next});
       };
       const std::uint32_t first = mesh_.first_out(vertex);
@@ -46,22 +42,15 @@ class EdgeWays {
         if (h == first) break;
       }
     }
-    return last;
+    return distance_[last_];
   }
 
-  /// Of the way to there.
-  std::uint32_t middle(std::uint32_t to) const {
-    const double half = distance_[to] / 2;
-    while (distance_[to] > half) to = before_[to];
-    return to;
-  }
-
-  double distance(std::uint32_t to) const { return distance_[to]; }
+  std::uint32_t last() const { return last_; }
 
  private:
   const TriangleMesh& mesh_;
   std::vector<double> distance_;
-  std::vector<std::uint32_t> before_;
+  std::uint32_t last_ = 0;
 };
 
 double longest_edge(const TriangleMesh& mesh) {
@@ -74,18 +63,18 @@ double longest_edge(const TriangleMesh& mesh) {
 }  // namespace
 
 double mesh_extent(const TriangleMesh& mesh) {
+  constexpr int sweeps = 3;  ///< each from where the one before ended
   EdgeWays ways(mesh);
   double farthest = 0;
   std::uint32_t seen = 0;  // components
   for (std::uint32_t f = 0; f < mesh.faces().size(); ++f) {
     if (mesh.component_of_face()[f] < seen) continue;
     ++seen;
-    const std::uint32_t end = ways.sweep(mesh.faces()[f][0]);
-    const std::uint32_t middle = ways.middle(ways.sweep(end));
-    farthest = std::max(farthest, ways.distance(ways.sweep(middle)));
+    ways.sweep_from(mesh.faces()[f][0]);
+    for (int k = 0; k < sweeps; ++k) farthest = std::max(farthest, ways.sweep_from(ways.last()));
   }
   // No place is farther than that from the next corner of its face.
-  return 2 * (farthest + longest_edge(mesh) / std::sqrt(3.0));
+  return 1.1 * farthest + longest_edge(mesh) / std::sqrt(3.0);
 }
 
 }  // namespace wellspaced

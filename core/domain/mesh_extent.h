@@ -4,9 +4,9 @@
 
 namespace wellspaced {
 
-/// A length that no shortest way between two places of one component is above: from a vertex in the middle,
-/// along edges, to the farthest vertex, twice. At most about twice the longest shortest way.
-/// Cost: O(n log n), about 1 us a vertex.
+/// About the longest shortest way between two places of one component, and a tenth more: along edges, which
+/// is farther than straight, from a vertex that is as far away as there are. An estimate, not a bound that is
+/// proven. Cost: O(n log n), about 1 us a vertex.
 double mesh_extent(const TriangleMesh& mesh);
 
 }  // namespace wellspaced

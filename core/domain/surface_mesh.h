@@ -64,7 +64,7 @@ class SurfaceMesh : public Domain {
   double boundary_length() const override { return border_.length(); }
   int euler_characteristic() const override { return mesh_.facts().euler_characteristic; }
   Box box() const override { return box_; }
-  /// At most twice as far as it could be. Cost: that of a shortest way to all vertices, the first time.
+  /// See mesh_extent. Cost: that of a few shortest ways to all vertices, the first time.
   double farthest() const override;
   std::size_t parts() const override { return mesh_.facts().components; }
   std::size_t part_of(Vec3 p) const override { return mesh_.component_of_face()[spot(p).place.face]; }

@@ -11,7 +11,8 @@ namespace {
 
 void require_side(double side, const char* where) {
   if (!std::isfinite(side) || side < Torus::min_side || side > Torus::max_side)
-    throw Error(ErrorCode::invalid_parameters, "a torus side must be a number from 1e-6 to 1e6", where);
+    throw Error(ErrorCode::invalid_parameters,
+                "a side must be a number from 1e-6 to 1e6; choose another unit of length", where);
 }
 
 }  // namespace

@@ -67,10 +67,11 @@ void check_area(const Triangles& mesh, std::size_t face) {
     largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   const double height = norm(cross(b - a, c - a)) / longest;
   if (height > flattest * longest && height > coordinate_rounding * largest) return;
-  refuse_face(face,
-              "face " + std::to_string(face) + " (vertices " + numbers(mesh.faces[face]) +
-                  ") has no area, to rounding; merge vertices that coincide and remove the face, or flip "
-                  "its longest edge");
+  refuse_face(
+      face, "face " + std::to_string(face) + " (vertices " + numbers(mesh.faces[face]) +
+                ") has no area, to rounding: it is lower than 1e-9 of its longest edge, or than 1e-13 of its "
+                "coordinates; merge vertices that coincide and remove the face, or flip "
+                "its longest edge");
 }
 
 /// One side of an edge, by the edge's ends.

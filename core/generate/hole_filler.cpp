@@ -6,13 +6,13 @@
 #include <optional>
 #include <tuple>
 
-#include "core/voronoi/far_places.h"
-
 namespace wellspaced {
 namespace {
 
 constexpr std::uint32_t nobody = ~0u;
-constexpr std::size_t few = 16;  ///< points on a curved domain
+constexpr std::size_t few = 16;             ///< points on a curved domain
+constexpr std::size_t few_on_surface = 64;  ///< of many faces
+constexpr std::size_t many_faces = 2000;
 
 }  // namespace
 
@@ -27,15 +27,25 @@ HoleFiller::HoleFiller(PointSet& points, NeighborGrid& grid, const DiskRule& rul
       rule_(rule),
       control_(control),
       deepened_(search == Search::wide && !points.domain->has_exact_cells() ? 1.15 : 1),
+      far_as_(search == Search::wide ? 2.5 : 1.05),
+      has_many_faces_(!points.domain->has_exact_cells() && points.domain->triangles().size() > many_faces),
       finder_(points, grid, 0, control),
       settler_(points, grid) {}
 
 void HoleFiller::fill() {
   const double enough = rule_.coverage * (1 + 1e-9);
   Hole hole{};
+  looks_at_cells_ = !(has_many_faces_ && points_.size() < few_on_surface);
+  while (!looks_at_cells_) {
+    heap_.clear();
+    look_at_places(enough);
+    if (!take_deepest(enough, hole)) return;
+    insert(hole, enough);
+  }
   // Corners that are settled may have led to one hole where there are two.
   for (bool again = true; again;) {
     const std::size_t before = points_.size();
+    heap_.clear();
     collect(enough);
     while (take_deepest(enough, hole)) insert(hole, enough);
     again = points_.size() > before && !points_.domain->has_exact_cells();
@@ -46,10 +56,12 @@ double HoleFiller::fill_to(std::size_t count) {
   const bool once = points_.domain->has_exact_cells();
   Hole hole{};
   while (points_.size() < count) {
-    collect(0);
     const std::size_t before = points_.size();
     const bool are_few = before < few && !points_.domain->is_flat();
-    if (are_few) look_at_places();
+    looks_at_cells_ = !(has_many_faces_ && before < few_on_surface);
+    heap_.clear();
+    if (looks_at_cells_) collect(0);
+    if (are_few || !looks_at_cells_) look_at_places(0);
     const std::size_t until = once && !are_few ? count : std::min(count, before + before / 8 + 1);
     while (points_.size() < until && take_deepest(0, hole)) insert(hole, 0);
     if (points_.size() == before) break;
@@ -57,37 +69,47 @@ double HoleFiller::fill_to(std::size_t count) {
   return hole.depth;
 }
 
-/// Few points on a curved domain have cells with corners that charts don't reach, or get wrong.
-void HoleFiller::look_at_places() {
-  constexpr std::size_t many = 512;
-  FarPlaces far(*points_.domain, many);
-  std::vector<double> depths(far.places().size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+/// Few points on a curved domain have cells with corners that charts don't reach, or get wrong; where there
+/// are many faces, too, each look at a corner goes over most of them.
+void HoleFiller::look_at_places(double deeper_than) {
+  constexpr std::size_t places = 2048;
+  if (!far_) {
+    far_.emplace(*points_.domain, places);
+    depths_.assign(far_->places().size(), std::numeric_limits<double>::infinity());
+  }
+  for (; seen_ < points_.size(); ++seen_) {
     control_.check();
-    const double r = rule_.radius(points_[i]);
-    far.see_from(points_[i], [&](std::size_t k, double d) {
-      depths[k] = std::min(depths[k], d / rule_.distance(rule_.radius(far.places()[k]), r));
+    const double r = rule_.radius(points_[seen_]);
+    const double reach = far_as_ * rule_.reach(r);
+    far_->see_from(points_[seen_], reach, [&](std::size_t k, double d) {
+      depths_[k] = std::min(depths_[k], d / rule_.distance(rule_.radius(far_->places()[k]), r));
     });
   }
-  std::optional<Hole> deepest;
-  for (std::size_t k = 0; k < depths.size(); ++k) {
-    const Hole hole{depths[k], far.places()[k]};
-    if (points_.domain->freedom(hole.at).dimensions == 2 && (!deepest || ComesLater()(*deepest, hole)))
-      deepest = hole;
+  double deepest = deeper_than;
+  for (const std::size_t k : far_->summits(depths_)) {
+    const Vec3 place = far_->places()[k];
+    // No corner is farther from the next place than that.
+    if (depths_[k] + far_->gap() / rule_.radius(place) <= deepest) continue;
+    look_at_place(place, depths_[k]);
+    if (!heap_.empty()) deepest = std::max(deepest, heap_.front().depth);
   }
-  if (!deepest) return;
-  if (!points_.domain->has_exact_cells() && std::isfinite(deepest->depth)) {
-    const double claimed = deepest->depth * rule_.radius(deepest->at);
-    const CornerSettler::Corner corner = settler_.settle(deepest->at, claimed, false);
-    deepest = Hole{corner.distance / rule_.radius(corner.at), corner.at};
-    deepest->depth = depth_of(*deepest);
+}
+
+void HoleFiller::look_at_place(Vec3 place, double depth) {
+  const Domain& domain = *points_.domain;
+  if (domain.freedom(place).dimensions < 2) return;
+  Hole hole{depth, place};
+  if (std::isinf(depth)) {  // there is no point within reach
+    hole.depth = far_as_ * rule_.coverage;
+  } else if (!domain.has_exact_cells()) {
+    hole.at = settler_.settle(place, depth * rule_.radius(place), false).at;
+    hole.depth = depth_of(hole);
   }
-  heap_.push_back(*deepest);
+  heap_.push_back(hole);
   std::push_heap(heap_.begin(), heap_.end(), ComesLater());
 }
 
 void HoleFiller::collect(double deeper_than) {
-  heap_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (i % 256 == 0) control_.check();
     look(static_cast<std::uint32_t>(i), deeper_than);
@@ -165,7 +187,7 @@ void HoleFiller::insert(const Hole& hole, double deeper_than) {
   const auto added = static_cast<std::uint32_t>(points_.size());
   points_.push_back(hole.at);
   grid_.add(added);
-  look(added, deeper_than);  // all new corners are its own
+  if (looks_at_cells_) look(added, deeper_than);  // all new corners are its own
 }
 
 }  // namespace wellspaced

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/control.h"
@@ -9,6 +10,7 @@
 #include "core/point_set.h"
 #include "core/voronoi/cell_finder.h"
 #include "core/voronoi/corner_settler.h"
+#include "core/voronoi/far_places.h"
 #include "core/voronoi/neighbors.h"
 
 namespace wellspaced {
@@ -46,7 +48,8 @@ class HoleFiller {
   void look(std::uint32_t i, double deeper_than);
   void look_at_corner(CornerSettler::Corner corner, bool is_outer, double r, double deeper_than);
   double depth_of(const Hole& hole);
-  void look_at_places();
+  void look_at_places(double deeper_than);
+  void look_at_place(Vec3 place, double depth);
   bool take_deepest(double deeper_than, Hole& deepest);
   void insert(const Hole& hole, double deeper_than);
 
@@ -55,6 +58,11 @@ class HoleFiller {
   const DiskRule& rule_;
   Control& control_;
   double deepened_;  ///< how much deeper than it claims a corner may be
+  double far_as_;    ///< reaches that far places are looked at within
+  bool has_many_faces_, looks_at_cells_ = true;
+  std::optional<FarPlaces> far_;
+  std::vector<double> depths_;  ///< of the far places
+  std::size_t seen_ = 0;        ///< points from which they were looked at
   CellFinder finder_;
   CornerSettler settler_;
   std::vector<Hole> heap_;

@@ -106,7 +106,7 @@ double mean_inside(const MovingSet& set, const std::vector<double>& areas) {
 }
 
 double area_in_units(const MovingSet& set, std::size_t i, CellFinder& cells) {
-  return cells.moments().area / (set.unit(i) * set.unit(i));
+  return cells.area() / (set.unit(i) * set.unit(i));
 }
 
 /// What the cell of each point inside that deviates asks of a neighbor, for each unit of the edge between

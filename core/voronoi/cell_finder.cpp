@@ -148,6 +148,25 @@ PolygonMoments CellFinder::moments() {
   return sum;
 }
 
+/// What the two charts leave out between them falls with how far they are looked at, and with its square.
+double CellFinder::area() {
+  const Domain& domain = *points_->domain;
+  if (clipped_ || !std::isfinite(domain.horizon()) || cell_.closed()) return moments().area;
+  const double unit = domain.distance_to_chart(domain.horizon() / 2), near = 1e4, far = 1e5;
+  const auto both = [&](double wide) { return area_within(wide * unit, 1) + area_within(wide * unit, -1); };
+  return (far * both(far) - near * both(near)) / (far - near);
+}
+
+/// Of the square of that half side in the chart; side: 1 here, -1 at the opposite place.
+double CellFinder::area_within(double reach, double side) {
+  Cell half;
+  half.reset(reach);
+  for (const HalfPlane& h : half_planes_) half.clip({h.n, side * h.c}, 0);
+  polygon_.clear();
+  for (const Cell::Corner& corner : half.corners()) polygon_.push_back(corner.at);
+  return points_->domain->moments(polygon_).area;
+}
+
 /// A part that reaches into the starting square's rim is farther away than half of it.
 bool CellFinder::is_complete(double moved) const {
   if (!clipped_ && !cell_.closed()) return false;

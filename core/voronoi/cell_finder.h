@@ -54,6 +54,8 @@ class CellFinder {
   /// Of what parts() are together: farthest corner's distance in the chart, squared; integrals.
   double outradius2() const;
   PolygonMoments moments();
+  /// Of all of the cell, past a sphere's horizon, too, to 1e-9 of it then.
+  double area();
   /// Distance of the farthest place of the cell from the loaded sample where it is. Where the domain's
   /// charts are not exact, corners that say more than `at_least` are looked for on the domain itself.
   double outradius(double at_least = 0);
@@ -79,6 +81,7 @@ class CellFinder {
   Radii radii_by_clipping(Vec2 u);
   double distance_of_farthest();
   double distance_beyond_horizon();
+  double area_within(double reach, double side);
 
   const PointSet* points_;
   const NeighborGrid* grid_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
 
 namespace wellspaced {
@@ -31,6 +32,21 @@ FarPlaces::FarPlaces(const Domain& domain, std::size_t at_least) : domain_(domai
   const auto before = [](Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::sort(places_.begin(), places_.end(), before);
   places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+}
+
+std::vector<std::size_t> FarPlaces::summits(std::span<const double> depths) const {
+  constexpr std::size_t most = 24;
+  std::vector<std::size_t> order(depths.size()), chosen;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return depths[a] != depths[b] ? depths[a] > depths[b] : a < b;
+  });
+  for (const std::size_t k : order) {
+    const auto is_near = [&](std::size_t c) { return norm(places_[c] - places_[k]) < 1.5 * gap_; };
+    if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(k);
+    if (chosen.size() == most) break;
+  }
+  return chosen;
 }
 
 }  // namespace wellspaced

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,21 +22,30 @@ class FarPlaces {
   /// Two places with less between them may lie around one corner of a cell.
   double gap() const { return gap_; }
 
-  /// Calls see(k, distance) with the way from p to each place. Cost: one search over all of the domain.
+  /// Calls see(k, distance) with the way from p to each place within reach. Cost: one search as far as that.
   template <class See>
-  void see_from(Vec3 p, const See& see) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+  void see_from(Vec3 p, double reach, const See& see) {
     neighbors_.clear();
-    for (std::size_t k = 0; k < places_.size(); ++k) neighbors_.push_back({places_[k] - p, 0});
-    domain_.distances(p, infinity, neighbors_, distances_);
-    for (std::size_t k = 0; k < places_.size(); ++k) see(k, distances_[k]);
+    seen_.clear();
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const Vec3 offset = places_[k] - p;
+      if (!(norm(offset) <= reach)) continue;
+      neighbors_.push_back({offset, 0});
+      seen_.push_back(k);
+    }
+    domain_.distances(p, reach, neighbors_, distances_);
+    for (std::size_t k = 0; k < seen_.size(); ++k) see(seen_[k], distances_[k]);
   }
+
+  /// The deepest places, two dozen at most, each the deepest around it; the deepest of all first.
+  std::vector<std::size_t> summits(std::span<const double> depths) const;
 
  private:
   const Domain& domain_;
   std::vector<Vec3> places_;
   double gap_ = 0;
   std::vector<Neighbor> neighbors_;
+  std::vector<std::size_t> seen_;
   std::vector<double> distances_;
 };
 

@@ -44,7 +44,7 @@ void MovingSet::set_units(const Control& control) {
   if (points_.sizing == nullptr) return;
   const std::vector<double> radii = radii_of(points_, points_.sizing.get());
   std::vector<double> areas(size());
-  for_each_cell(control, [&](std::size_t i, CellFinder& cells) { areas[i] = cells.moments().area; });
+  for_each_cell(control, [&](std::size_t i, CellFinder& cells) { areas[i] = cells.area(); });
   double inside = 0, rim_count = 0, rim_inverse = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     inside += 2 * areas[i] / (std::sqrt(3.0) * radii[i] * radii[i]);

@@ -12,6 +12,7 @@
 #include "core/analyze/distributions.h"
 #include "core/analyze/local_measures.h"
 #include "core/analyze/spacing.h"
+#include "core/domain/sphere.h"
 #include "core/math.h"
 #include "core/mesh/mesh_quality.h"
 #include "core/mesh/meshing.h"
@@ -102,6 +103,28 @@ TEST(DomainMeasures, SeeTheOrderOfALatticeInABox) {
   EXPECT_TRUE(std::isnan(curved.psi6_global));
   EXPECT_GT(curved.psi6_local, 0.1);
   EXPECT_LT(curved.psi6_local, 0.7);
+}
+
+/// Cells of points on one great circle are lunes, from pole to pole.
+TEST(DomainMeasures, AreasOfCellsPastTheHorizonOfASphereAreThoseOfLunes) {
+  const auto sphere = std::make_shared<Sphere>(3.0);
+  for (const std::vector<double>& turns : {std::vector<double>{0, 0.25, 0.5},
+                                           {0, 0.1, 0.15},
+                                           {0.01, 0.3, 0.31, 0.7},
+                                           {0, 0.02, 0.04, 0.5, 0.53}}) {
+    PointSet points{sphere, {}};
+    for (const double t : turns) {
+      const CosSin c = portable_cos_sin(t);
+      points.push_back({3 * 0.6 * c.cos, 3 * c.sin, 3 * 0.8 * c.cos});
+    }
+    const std::vector<double> areas = measure_locally(points, LocalMeasure::area, plain);
+    const double mean = 1.0 / static_cast<double>(turns.size());
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      const double next = k + 1 < turns.size() ? turns[k + 1] : turns[0] + 1;
+      const double before = k > 0 ? turns[k - 1] : turns.back() - 1;
+      EXPECT_NEAR(areas[k], (next - before) / 2 / mean, 1e-8) << turns.size() << " " << k;
+    }
+  }
 }
 
 }  // namespace

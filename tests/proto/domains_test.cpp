@@ -308,7 +308,10 @@ TEST(Sizing, OfGridsAndImagesIsRefusedWithTheCulprit) {
   const auto sized = [](const std::string& sizing) { return R"({"count":9,"sizing":)" + sizing + "}"; };
   expect_refusals({
       {"generate", sized(R"({"type":"grid"})"), invalid, "/sizing/radii", "rows of radii"},
-      {"generate", sized(R"({"type":"grid","radii":[]})"), invalid, "/sizing/radii", "array of rows"},
+      {"generate", sized(R"({"type":"grid","radii":[]})"), invalid, "/sizing/radii", "no rows"},
+      {"generate", sized(R"({"type":"grid","radii":7})"), invalid, "/sizing/radii", "array of rows"},
+      {"generate", sized(R"({"type":"image","black":1,"white":2,"png":""})"), invalid, "/sizing/png",
+       "it is empty"},
       {"generate", sized(R"({"type":"grid","radii":[[]]})"), invalid, "/sizing/radii/0", "one at least"},
       {"generate", sized(R"({"type":"grid","radii":[[1,2],[1]]})"), invalid, "/sizing/radii/1", "first row"},
       {"generate", sized(R"({"type":"grid","radii":[[1,2],[1,"x"]]})"), invalid, "/sizing/radii/1/1",

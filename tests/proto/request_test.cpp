@@ -66,7 +66,7 @@ TEST(ReadRequest, RefusesWrongTypesAndSaysWhatWasFound) {
       {"generate", R"({"radius":{}})", invalid, "/radius", "expected a number, found an object"},
       {"generate", R"({"count":10,"method":5})", invalid, "/method", "expected a string, found the number 5"},
       {"generate", R"({"count":10,"seed":"1"})", invalid, "/seed", "found a string"},
-      {"generate", R"({"count":10,"seed":-1})", invalid, "/seed", "from 0 on, found the number -1"},
+      {"generate", R"({"count":10,"seed":-1})", invalid, "/seed", "from 0 to 2^64 - 1, found the number -1"},
       {"generate", R"({"count":10,"seed":0.5})", invalid, "/seed", "found the number 0.5"},
       {"generate", R"({"count":10,"seed":18446744073709551616})", invalid, "/seed", "whole number"},
       {"generate", R"({"count":10,"domain":"torus"})", invalid, "/domain",
