@@ -26,7 +26,7 @@ CornerSettler::Corner CornerSettler::settle(Vec3 place, double claimed, bool on_
 /// The three nearest come first then. Distance of the nearest one.
 double CornerSettler::look(Vec3 place, double claimed) {
   constexpr std::uint32_t nobody = ~0u;
-  for (const double looks : {1.2, 1.8, 2.7, 4.0}) {
+  for (const double looks : {1.1, 1.8, 2.7, 4.0}) {
     const double reach = looks * claimed;
     neighbors_.clear();
     grid_->gather(place, nobody, reach, neighbors_);

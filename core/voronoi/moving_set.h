@@ -44,7 +44,7 @@ class MovingSet {
   /// One that sees the points as they are whenever it is asked. Requires: the set and control outlive it.
   CellFinder finder(const Control& control) const { return {points_, grid_, 0, control}; }
   /// How far a finder best looks at first around point i.
-  double reach(std::size_t i) const { return 2.3 * units_[i]; }
+  double reach(std::size_t i) const { return 2.0 * units_[i]; }
   /// Turns a finder to the cell of point i, where that is now.
   void find_cell(std::size_t i, CellFinder& cells) const {
     cells.load(static_cast<std::uint32_t>(i), reach(i));
