@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "core/domain/sphere.h"
 #include "core/error.h"
+#include "core/math.h"
 
 namespace wellspaced {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+double cosine(double angle) { return portable_cos_sin(angle / (2 * pi)).cos; }
 
 /// Its slope is greatest in one of its corners, for it is linear along every row and every column.
 double steepest_in_cell(double a, double b, double c, double d, Vec2 size) {
   const double bottom = (b - a) / size.x, top = (d - c) / size.x;
   const double left = (c - a) / size.y, right = (d - b) / size.y;
-  return std::hypot(std::max(std::fabs(bottom), std::fabs(top)), std::max(std::fabs(left), std::fabs(right)));
+  return norm(Vec2{std::max(std::fabs(bottom), std::fabs(top)), std::max(std::fabs(left), std::fabs(right))});
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void GridSizing::check_radii() const {
 
 Vec2 GridSizing::coordinates(Vec3 p) const {
   if (!is_sphere_) return {p.x, p.y};
-  return {std::atan2(p.y, p.x), std::atan2(p.z, std::hypot(p.x, p.y))};
+  return {portable_atan2(p.y, p.x), portable_atan2(p.z, norm(Vec2{p.x, p.y}))};
 }
 
 double GridSizing::along_row(std::size_t row, Between columns) const {
@@ -126,7 +126,7 @@ double GridSizing::steepest() const {
     Vec2 size = {axes_[0].cell_size(), axes_[1].cell_size()};
     if (is_sphere_) {  // parallels are shortest at the end nearer to a pole
       const auto latitude = [&](std::size_t k) { return (static_cast<double>(k) + 0.5) * size.y - pi / 2; };
-      const double shortest = std::min(std::cos(latitude(row)), std::cos(latitude(next)));
+      const double shortest = std::min(cosine(latitude(row)), cosine(latitude(next)));
       size = sphere_radius_ * Vec2{size.x * shortest, size.y};
     }
     for (std::size_t i = 0; i < grid_.columns; ++i) {
@@ -150,13 +150,14 @@ double GridSizing::steepest() const {
 /// a / a_row, while the parallel is as long as sin a says, which is at least that part of sin a_row.
 double GridSizing::steepest_cap(std::size_t row, double mean) const {
   const double a_row = 0.5 * axes_[1].cell_size();
-  const double east = sphere_radius_ * std::sin(a_row) * axes_[0].cell_size(), north = sphere_radius_ * a_row;
+  const double east = sphere_radius_ * portable_cos_sin(a_row / (2 * pi)).sin * axes_[0].cell_size(),
+               north = sphere_radius_ * a_row;
   double most = 0;
   for (std::size_t i = 0; i < grid_.columns; ++i) {
     const Between columns = axes_[0].between(static_cast<double>(i));
     const double a = value(columns.from, row), b = value(columns.to, row);
     const double to_mean = std::max(std::fabs(a - mean), std::fabs(b - mean));
-    most = std::max(most, std::hypot((b - a) / east, to_mean / north));
+    most = std::max(most, norm(Vec2{(b - a) / east, to_mean / north}));
   }
   return most;
 }
