@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/analyze/bond_order.h"
+#include "core/analyze/certificate.h"
 #include "core/analyze/distributions.h"
+#include "core/analyze/domain_certificate.h"
+#include "core/analyze/domain_spacing.h"
 #include "core/analyze/local_measures.h"
 #include "core/analyze/spacing.h"
 #include "core/domain/sphere.h"
@@ -20,6 +25,8 @@
 
 namespace wellspaced {
 namespace {
+
+using testing::mps_on;
 
 const Control plain;
 
@@ -125,6 +132,70 @@ TEST(DomainMeasures, AreasOfCellsPastTheHorizonOfASphereAreThoseOfLunes) {
       EXPECT_NEAR(areas[k], (next - before) / 2 / mean, 1e-8) << turns.size() << " " << k;
     }
   }
+}
+
+/// The torus has a way of its own, which knows nothing of MovingSet.
+TEST(MeasureDomainSpacing, SaysOfATorusWhatItsTriangulationSays) {
+  const PointSet points = mps_on(std::make_shared<Torus>(1.5, 1), 700, 9);
+  const LocalSpacing a = measure_domain_spacing(points, plain), b = measure_local_spacing(points, plain);
+  EXPECT_NEAR(a.global.beta, b.global.beta, 1e-12);
+  EXPECT_NEAR(a.global.r_f, b.global.r_f, 1e-14);
+  EXPECT_NEAR(a.global.r_c, b.global.r_c, 1e-13);
+  EXPECT_NEAR(a.global.rho, b.global.rho, 1e-12);
+  EXPECT_NEAR(a.global.packing_density, b.global.packing_density, 1e-12);
+  EXPECT_NEAR(a.global.nearest_mean, b.global.nearest_mean, 1e-12);
+  EXPECT_NEAR(a.global.cell_area_sd, b.global.cell_area_sd, 1e-11);
+  EXPECT_NEAR(a.global.angle_min_deg, b.global.angle_min_deg, 1e-9);
+  EXPECT_NEAR(a.global.angle_max_deg, b.global.angle_max_deg, 1e-9);
+  EXPECT_NEAR(a.global.edge_max, b.global.edge_max, 1e-12);
+  EXPECT_EQ(a.global.valence, b.global.valence);
+  ASSERT_EQ(a.beta_i.size(), b.beta_i.size());
+  for (std::size_t i = 0; i < a.beta_i.size(); ++i) EXPECT_NEAR(a.beta_i[i], b.beta_i[i], 1e-11);
+}
+
+TEST(MeasureDomainSpacing, ValencesOfASphereObeyEuler) {
+  const PointSet points = mps_on(std::make_shared<Sphere>(2), 500, 2);
+  const Spacing s = measure_spacing(points, plain);
+  int sum = 0;
+  for (const auto& [valence, count] : s.valence) sum += valence * static_cast<int>(count);
+  EXPECT_EQ(sum, 6 * static_cast<int>(points.size()) - 12);
+}
+
+/// The radius of the smallest cap that holds all points, by what it is about: one, two or three of them.
+/// What is farthest from all is the opposite place of its center, where it is no more than half a sphere.
+TEST(MeasureDomainSpacing, OfPointsInOneHalfOfASphereSeesPastTheHorizon) {
+  Rng rng(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double radius = trial % 2 == 0 ? 1 : 3;
+    PointSet points{std::make_shared<Sphere>(radius), {}};
+    const std::size_t n = 3 + static_cast<std::size_t>(trial % 9);
+    const double low = trial % 3 == 0 ? 0.9 : 0.05;
+    while (points.size() < n) {
+      const Vec3 p = points.domain->random_point(rng);
+      if (p.z > low * radius) points.push_back(p);
+    }
+    double farthest = 0;
+    const auto look = [&](Vec3 center) {
+      if (!(norm(center) > 1e-9)) return;
+      for (const double sign : {1.0, -1.0}) {
+        const Vec3 at = (sign * radius / norm(center)) * center;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < n; ++i)
+          nearest = std::min(nearest, points.domain->distance(at, points[i]));
+        farthest = std::max(farthest, nearest);
+      }
+    };
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        look(points[i] + points[j]);
+        for (std::size_t k = 0; k < j; ++k) look(cross(points[j] - points[i], points[k] - points[i]));
+      }
+    EXPECT_NEAR(measure_spacing(points, plain).r_c, farthest, 1e-9 * radius)
+        << n << " points, trial " << trial;
+    EXPECT_FALSE(certify(points, plain).has_value());
+  }
+  PointSet axes{std::make_shared<Sphere>(1), {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  EXPECT_NEAR(measure_spacing(axes, plain).r_c, std::numbers::pi - std::acos(1 / std::sqrt(3.0)), 1e-12);
 }
 
 }  // namespace

@@ -58,62 +58,58 @@ void expect_kept(const PointSet& points, const DiskRule& rule, int places) {
 constexpr Criterion criteria[] = {Criterion::smaller, Criterion::bigger, Criterion::prior,
                                   Criterion::current};
 
-TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiVary) {
-  const auto box = std::make_shared<BoxDomain>();
-  const LinearSizing sizing(*box, {0, 0.02, 0.08});
+/// By each criterion, at some places.
+void expect_kept(const std::shared_ptr<const Domain>& domain, const Sizing& sizing, double scale,
+                 int places) {
   for (const Criterion criterion : criteria) {
     SCOPED_TRACE(static_cast<int>(criterion));
     Rng rng(3);
     Control control;
-    const DiskRule rule{1, &sizing, criterion};
-    expect_kept(throw_darts_over(box, rule, rng, control), rule, 20000);
+    const DiskRule rule{scale, &sizing, criterion};
+    expect_kept(throw_darts_over(domain, rule, rng, control), rule, places);
   }
+}
+
+TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiVary) {
+  const auto box = std::make_shared<BoxDomain>();
+  expect_kept(box, LinearSizing(*box, {0, 0.02, 0.08}), 1, 20000);
 }
 
 /// Steeper than any radius allows: neighbors differ by factors.
 TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiAreAnImage) {
   for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
     RadiusGrid grid{9, 9, std::vector<double>(81)};
     Rng values(2);
     for (double& r : grid.radii) r = values.uniform() < 0.5 ? 0.04 : 0.16;
-    const GridSizing sizing(*domain, grid);
-    for (const Criterion criterion : criteria) {
-      SCOPED_TRACE(name + " " + std::to_string(static_cast<int>(criterion)));
-      Rng rng(3);
-      Control control;
-      const DiskRule rule{1, &sizing, criterion};
-      expect_kept(throw_darts_over(domain, rule, rng, control), rule, 3000);
-    }
+    expect_kept(domain, GridSizing(*domain, grid), 1, 3000);
   }
 }
 
-/// From a thousandth of the domain to more than all of it, with which each place has its own tiny part.
+/// From a thousandth of the domain to more than all of it.
 TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiVaryAThousandfold) {
   for (const auto& [name, domain] : domains_of_every_kind()) {
+    SCOPED_TRACE(name);
     const double size = norm(domain->box().size);
-    const LinearSizing sizing(*domain, {0, 1e-3 * size, size});
-    for (const Criterion criterion : criteria) {
-      SCOPED_TRACE(name + " " + std::to_string(static_cast<int>(criterion)));
-      Rng rng(3);
-      Control control;
-      const DiskRule rule{1, &sizing, criterion};
-      expect_kept(throw_darts_over_to_count(domain, 250, rule, rng, control), {1e-9, &sizing, criterion}, 0);
-      expect_kept(throw_darts_over(domain, {8, &sizing, criterion}, rng, control), {8, &sizing, criterion},
-                  2000);
-    }
+    expect_kept(domain, LinearSizing(*domain, {0, 1e-3 * size, size}), 8, 2000);
   }
 }
 
 TEST(ThrowDartsOver, KeepsToTheRuleWhereRadiiOfVerticesVaryAThousandfold) {
   const auto domain = std::make_shared<const SurfaceMesh>(TriangleMesh(testing::tetrahedron()));
-  const VertexSizing sizing(*domain, {0.002, 2, 2, 2});
-  for (const Criterion criterion : criteria) {
-    SCOPED_TRACE(static_cast<int>(criterion));
-    Rng rng(1);
-    Control control;
-    const DiskRule rule{1, &sizing, criterion};
-    expect_kept(throw_darts_over(domain, rule, rng, control), rule, 500);
-  }
+  expect_kept(domain, VertexSizing(*domain, {0.002, 2, 2, 2}), 1, 500);
+}
+
+TEST(ThrowDartsOver, HasTheCountThatWasAskedForWhereRadiiVaryAThousandfold) {
+  for (const auto& [name, domain] : domains_of_every_kind())
+    for (const Criterion criterion : criteria) {
+      SCOPED_TRACE(name + " " + std::to_string(static_cast<int>(criterion)));
+      const LinearSizing sizing(*domain, {0, 1, 1000});
+      Rng rng(3);
+      Control control;
+      const PointSet points = throw_darts_over_to_count(domain, 250, {1, &sizing, criterion}, rng, control);
+      EXPECT_EQ(points.size(), 250u);
+    }
 }
 
 TEST(ExpectedPoints, AreAboutWhatComesHoweverMuchRadiiVary) {
