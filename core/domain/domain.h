@@ -115,7 +115,7 @@ class Domain {
   virtual double boundary_length() const { return 0; }
   virtual int euler_characteristic() const = 0;  ///< of a triangulation: vertices - edges + faces
   virtual Box box() const = 0;
-  /// No place is farther from the nearest image of another one, but across parts.
+  /// No place is farther from the nearest image of another one of its part; on meshes about so, unproven.
   virtual double farthest() const {
     const Box b = box();
     return norm(Vec3{b.size.x / (b.periodic[0] ? 2 : 1), b.size.y / (b.periodic[1] ? 2 : 1), b.size.z});
